@@ -3,7 +3,6 @@
 from collections import namedtuple
 from dataclasses import asdict, dataclass, replace
 from math import ceil, hypot, inf, log, nan, pi, sqrt
-from typing import NamedTuple
 
 import numpy as np
 
@@ -191,13 +190,8 @@ def ratio_of(outcome, quantity, law=nan):
     )
 
 
-class Mean(NamedTuple):
-    """Mean over draws, the relative standard deviation of one, and how many know it as well; see `Ratio.grid`."""
-
-    value: float
-    scatter: float
-    draws: float
-    grid: float = nan
+# Mean over draws, the relative standard deviation of one, and how many know it as well; see `Ratio.grid`.
+Mean = namedtuple("Mean", "value scatter draws grid", defaults=[nan])
 
 
 def _space(outcome, quantity):

@@ -7,11 +7,11 @@ applications with bem3d/effects.csv and mdr1d/effects.csv, which are written fro
 """
 
 import tomllib
+from collections import namedtuple
 from functools import cache
 from itertools import product
 from math import nan
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 import pandas
@@ -41,18 +41,9 @@ UNSHOWN = "plane", "reversal"  # on the page
 PIXELS = 128  # a side of the measured surface; the shortest wave has eight
 
 
-class Effect(NamedTuple):
-    """One effect, on a plain contact.
-
-    scene : the contact that is solved
-    over : title of the effect that it is added to
-    parts : names of the types whose applications in a plan are multiplied by those of this effect
-    """
-
-    title: str
-    scene: Scene
-    over: str | None = None
-    parts: tuple[str, ...] = ()
+# One effect on a plain contact: the scene that is solved, the title of the effect that it is added to, and names
+# of the types whose applications in a plan are multiplied by those of this effect.
+Effect = namedtuple("Effect", "title scene over parts", defaults=[None, ()])
 
 
 def measured(rough):

@@ -10,11 +10,9 @@ most 4096^2 points, with a grid error of at most 1 %, and with at least one cut 
 """
 
 import sys
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections import namedtuple
 from itertools import count
 from math import ceil, inf
-from pathlib import Path
 
 import design
 import numpy as np
@@ -23,7 +21,7 @@ from pandas import DataFrame, Series, read_csv
 from planes import HELD_OUT, RANGES, off, planes
 from scipy.optimize import minimize
 from scipy.stats import t as student
-from tables import fill, of_count, table
+from tables import RESULTS, errors_of, fill, share_of, table
 
 from bem3d import BEM
 from compare.models.law.extended import UNCERTAINTY, scales, under, without
@@ -34,7 +32,6 @@ from compare.trustmap.friction_law import TESTED
 from scene import Prony, Refused, Scene, SelfAffine, Slide, SolveError, Spectrum, Table, Tabulated
 from scene.scales import elastic_contact
 
-RESULTS = Path(__file__).parents[1] / "results"
 # Seed of each set, and contacts of each stratum in it.
 SETS = {"learned": (62_100, 18), "more": (62_200, 24), "further": (62_300, 24), "tested": (62_400, 24)}
 # Strata by p/p_rms with all waves, declared beforehand: the lightest contacts, light ones, partial and nearly full
@@ -58,23 +55,16 @@ NEARLY = 0.8  # share of the points to the shortest wave that suffices
 TRUE = 0.01  # greatest grid error of what counts as true
 
 
-@dataclass(frozen=True)
-class Contact:
-    """A rough scene of a set, its stratum, and x = p/p_rms with all waves."""
-
-    set: str
-    number: int
-    stratum: str
-    scene: Scene
-    x: float
-
-    @property
-    def pixels(self) -> float:
-        """Points to the shortest wave."""
-        return FINE if self.x < STRATA["light"][1] else USUAL
+# A rough scene of a set, its stratum, and x = p/p_rms with all waves.
+Contact = namedtuple("Contact", "set number stratum x scene")
 
 
-def candidates(name: str) -> Iterator[Contact]:
+def named(contact):
+    """Columns of a contact in its table."""
+    return dict(zip(Contact._fields[:-1], contact, strict=False))
+
+
+def candidates(name):
     """Contacts of the strata, without end."""
     seed, _ = SETS[name]
     draw = np.random.default_rng(seed)
@@ -86,10 +76,10 @@ def candidates(name: str) -> Iterator[Contact]:
             continue
         stratum = next((key for key, (low, high) in STRATA.items() if low <= x < high), None)
         if stratum and scene.roughness.rms_height < elastic_contact(scene).depth:
-            yield Contact(name, number, stratum, scene, x)
+            yield Contact(name, number, stratum, x, scene)
 
 
-def drawn(draw: np.random.Generator, seed: int) -> Scene:
+def drawn(draw, seed):
     """A scene of the population."""
     u = draw.random(18)
     wave = design.RADIUS / design.between(WAVES, u[0])
@@ -115,7 +105,7 @@ def drawn(draw: np.random.Generator, seed: int) -> Scene:
     return Scene(indenter, solid, Slide(speed=design.SPEED, load=load, depth=depth), rough)
 
 
-def measured(rough: SelfAffine, draw: np.random.Generator) -> Spectrum:
+def measured(rough, draw):
     """A table of densities about those of a power law, as an instrument shows them."""
     q = np.geomspace(rough.q_min, rough.q_max(0.0), 30)
     density = np.asarray(rough.density_2d(q * (1 - 1e-9 * (q >= q[-1])), rough.q_max(0.0)))
@@ -124,13 +114,10 @@ def measured(rough: SelfAffine, draw: np.random.Generator) -> Spectrum:
     return Spectrum(q=tuple(q), C2D=tuple(density * bumps), convention="persson", seed=rough.seed)
 
 
-def table_of(solid: Prony) -> Tabulated:
+def table_of(solid):
     """The moduli of a solid as a rheometer shows them."""
     frequency = np.geomspace(0.03 / max(solid.relaxation_times), 30 / min(solid.relaxation_times), 40)
-    moduli = solid.equilibrium_modulus + sum(
-        g * (1j * frequency * t) / (1 + 1j * frequency * t)
-        for g, t in zip(solid.moduli, solid.relaxation_times, strict=True)
-    )
+    moduli = solid.complex_modulus(frequency)
     return Tabulated(
         table=Table(tuple(frequency), tuple(moduli.real), tuple(moduli.imag)),
         frequency_unit="rad/s",
@@ -139,46 +126,37 @@ def table_of(solid: Prony) -> Tabulated:
     )
 
 
-def row(contact: Contact, factor: float, shortest: float, points: int) -> dict:
+def row(contact, factor, shortest, points):
     """Numbers of one solve, its law, and the law of all waves under the load that it found."""
     scene = contact.scene if factor == 1 else without(contact.scene, shortest)
-    numbers = {"set": contact.set, "number": contact.number, "stratum": contact.stratum, "factor": factor}
-    numbers |= {"points": points, "shortest": shortest, "x": contact.x}
+    numbers = named(contact) | {"factor": factor, "points": points, "shortest": shortest}
     try:
         found = BEM(points=points).solve(scene)
     except (SolveError, Refused) as error:
-        return numbers | {"reason": str(error)[:120]}
+        return numbers | {"reason": str(error)}
     numbers |= {
         "extent": found.settings["extent"],
         "friction": found.friction_coefficient,
-        "load": found.normal_force,
         "depth": found.depth,
         "error": found.measures.get("friction_error", inf),
-        "disagreement": found.measures.get("friction_disagreement", inf),
         "pixels": found.measures.get("points_per_shortest_wave", inf),
         "area": found.measures["contact_area"],
         "rms_height": scene.roughness.rms_height,
-        "rms_slope": scene.roughness.rms_slope(scene.roughness.q_max(0.0)),
-        "seconds": found.seconds,
     }
     try:
         own, whole = (LawParts.of(under(each, found.normal_force)) for each in (scene, contact.scene))
     except SolveError as error:
-        return numbers | {"reason": f"law: {error}"[:120]}
+        return numbers | {"reason": f"law: {error}"}
     return numbers | {
         "law": own.friction_coefficient,
-        "law_rough": own.rough,
-        "law_x": own.x,
-        "law_radius": own.radius,
         "whole": whole.friction_coefficient,
-        "whole_x": whole.x,
     }
 
 
-def solved(contact: Contact) -> list[dict]:
+def solved(contact):
     """Rows of a contact: with every wave, on a grid fine enough for them, and at each cut."""
-    rough = contact.scene.roughness
-    numbers = {"set": contact.set, "number": contact.number, "stratum": contact.stratum, "factor": 1}
+    rough, pixels = contact.scene.roughness, FINE if contact.x < STRATA["light"][1] else USUAL
+    numbers = named(contact) | {"factor": 1}
     coarse, extent = without(contact.scene, min(16 * rough.shortest, rough.longest / 2.01)), inf
     for points in (64, 128, 256):
         try:
@@ -187,11 +165,11 @@ def solved(contact: Contact) -> list[dict]:
         except (SolveError, Refused):
             continue
     while True:
-        needed = contact.pixels * extent / rough.shortest
+        needed = pixels * extent / rough.shortest
         if not LEAST_CUT * CUTS[0] <= needed <= POINTS[-1]:
             return [numbers | {"reason": f"needs {needed:.0f} points"}]
         whole = row(contact, 1, rough.shortest, next(each for each in POINTS if each >= needed))
-        if whole.get("pixels", inf) >= NEARLY * contact.pixels or whole["extent"] <= extent:
+        if whole.get("pixels", inf) >= NEARLY * pixels or whole["extent"] <= extent:
             break
         extent = whole["extent"]  # of the contact with all waves, which is wider
     if not (whole.get("whole", 0.0) > 0 and whole["error"] <= TRUE):
@@ -205,7 +183,7 @@ def solved(contact: Contact) -> list[dict]:
     return rows
 
 
-def solve(name: str) -> None:
+def solve(name):
     """Solve the contacts of a set that are not solved yet."""
     path = RESULTS / f"extended-{name}.csv"
     rows = read_csv(path).to_dict("records") if path.exists() else []
@@ -221,12 +199,12 @@ def solve(name: str) -> None:
             rows += found
             DataFrame(rows).to_csv(path, index=False)
             done[contact.number] = found[0]
-            print(contact.set, contact.number, contact.stratum, len(found), "solves", flush=True)
+            print(*contact[:3], len(found), "solves", flush=True)
         reason = done[contact.number].get("reason")
         wanted[contact.stratum] -= not (isinstance(reason, str) and reason)
 
 
-def errors(name: str) -> DataFrame:
+def errors(name):
     """Logarithms of answer over truth, of each cut and of the law alone, and the gap of the depth."""
     rows = read_csv(RESULTS / f"extended-{name}.csv")
     rows = rows[rows["reason"].isna()]
@@ -240,7 +218,7 @@ def errors(name: str) -> DataFrame:
     return cut.assign(one=1.0, **numbers).merge(gaps(name, true), on="number", how="left")
 
 
-def gaps(name: str, true: DataFrame) -> DataFrame:
+def gaps(name, true):
     """Gap between the rough body and the smooth one, less the mean gap of a plane, over the rms height."""
     found = []
     for contact in candidates(name):
@@ -253,13 +231,14 @@ def gaps(name: str, true: DataFrame) -> DataFrame:
     return DataFrame(found)
 
 
-def half_of(logs: np.ndarray) -> float:
-    """Half an interval of 95 % of one more number with a mean of zero, like these."""
-    logs = np.asarray(logs[np.isfinite(logs)])
-    return float(student.ppf(0.975, logs.size) * np.sqrt(np.mean(np.square(logs)) * (1 + 1 / logs.size)))
+def interval(quantity, body, least, most, logs):
+    """Half an interval of 95 % of one more number with a mean of zero, like these, in a range of p/p_rms."""
+    known = np.asarray(logs.dropna())
+    half = student.ppf(0.975, known.size) * np.sqrt(np.mean(np.square(known)) * (1 + 1 / known.size))
+    return dict(quantity=quantity, body=body, least=least, most=most, contacts=len(logs), half=half)
 
 
-def likeliest(learned: DataFrame) -> Series:
+def likeliest(learned):
     """Coefficients of the logarithm of half an interval of `extended`, of most likelihood."""
 
     def unlikely(values):
@@ -270,7 +249,7 @@ def likeliest(learned: DataFrame) -> Series:
     return Series(found.x, NAMES)
 
 
-def fitted(learned: DataFrame) -> Series:
+def fitted(learned):
     """The likeliest coefficients, widened until 95 % of the contacts hold that are left out in turn."""
     missed = []
     for _, own in learned.groupby(CONTACT):
@@ -281,27 +260,22 @@ def fitted(learned: DataFrame) -> Series:
     return found
 
 
-def outside(learned: DataFrame) -> Iterator[dict]:
+def outside(learned):
     """Rows of compare/trustmap/outside.csv."""
     alone = learned.drop_duplicates(CONTACT)
     for stratum, (least, most) in STRATA.items():
-        logs = alone.loc[alone["stratum"] == stratum, "bare"]
-        yield dict(
-            quantity="friction", body="body", least=least, most=most, contacts=len(logs), half=half_of(logs)
-        )
+        yield interval("friction", "body", least, most, alone.loc[alone["stratum"] == stratum, "bare"])
     depth = alone["gap"].dropna()
     least, most = next(iter(STRATA.values()))[0], [*STRATA.values()][-1][1]
-    yield dict(quantity="depth", body="body", least=least, most=most, contacts=len(depth), half=half_of(depth))
+    yield interval("depth", "body", least, most, depth)
     found = planes()
     found["off"] = off(found, [*coefficients().values()])
     for (least, most), _ in RANGES:
-        logs = found.loc[found["x"].between(least, most) & (found["plane"] % HELD_OUT == 0), "off"]
-        yield dict(
-            quantity="friction", body="plane", least=least, most=most, contacts=len(logs), half=half_of(logs)
-        )
+        own = found["x"].between(least, most) & (found["plane"] % HELD_OUT == 0)
+        yield interval("friction", "plane", least, most, found.loc[own, "off"])
 
 
-def rows_of(tested: DataFrame, values: Series, alone: DataFrame) -> Iterator[tuple[str, ...]]:
+def rows_of(tested, values, alone):
     """Errors and coverage by stratum, of contacts that nothing was fitted to."""
     half = np.exp(tested[NAMES] @ values)
     tested = tested.assign(held=np.abs(tested["extended"]) <= half, half=half)
@@ -310,23 +284,13 @@ def rows_of(tested: DataFrame, values: Series, alone: DataFrame) -> Iterator[tup
         own = tested if stratum == "all" else tested[tested["stratum"] == stratum]
         first = own.drop_duplicates("number")
         widest = first["stratum"].map({key: bare[least] for key, (least, _) in STRATA.items()})
-        cells = [_cell(first["bare"]), _held(np.abs(first["bare"]) <= widest)]
-        for factor in CUTS[:3]:
-            cells.append(_cell(own.loc[own["factor"] == factor, "extended"]))
-        yield stratum, str(len(first)), *cells, f"{100 * np.expm1(own['half'].median()):.2g} %", _held(own["held"])
+        cells = [errors_of(first["bare"]), share_of(np.abs(first["bare"]) <= widest)]
+        cells += [errors_of(own.loc[own["factor"] == factor, "extended"]) for factor in CUTS[:3]]
+        half = f"{100 * np.expm1(own['half'].median()):.2g} %"
+        yield stratum, str(len(first)), *cells, half, share_of(own["held"])
 
 
-def _cell(logs):
-    off = 100 * np.abs(np.expm1(logs))
-    return f"{off.median():.2g} / {off.quantile(0.9):.2g} % ({len(off)})" if len(off) else ""
-
-
-def _held(held):
-    low, high = of_count(int(held.sum()), len(held))
-    return f"{100 * held.mean():.0f} % ({100 * low:.0f} to {100 * high:.0f})"
-
-
-def main() -> None:
+def main():
     if sys.argv[1:]:
         return solve(sys.argv[2])
     *learned, tested = map(errors, SETS)

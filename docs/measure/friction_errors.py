@@ -1,5 +1,6 @@
 """Error of friction that an answer states, against finer grids: fitted to many, and tested on many others."""
 
+from collections import namedtuple
 from dataclasses import dataclass, replace
 from math import isfinite, nan
 
@@ -16,7 +17,6 @@ from bem3d.costs import band
 from bem3d.friction import bound as frictionerror
 from bem3d.grid import Grid
 from bem3d.problem import Problem
-from compare.solving.task import SceneTask
 from mdr1d import MDR
 
 EVERY = {"smooth": 1, "rough": 1, "plane": 2, "line": 6}  # seeds a scene of a kind
@@ -36,16 +36,11 @@ FEWEST = 40  # answers of a region
 SIGN = "sign: "  # before the names of signs among measures, which are names of other numbers too
 
 
-@dataclass(frozen=True)
-class Judged:
+class Judged(namedtuple("Judged", "name task finer")):
     """A scene on a grid to be judged, and the same on finer grids.
 
     name : of its kind, or of the scene
     """
-
-    name: str
-    task: SceneTask
-    finer: tuple[SceneTask, ...]
 
     @property
     def tasks(self):

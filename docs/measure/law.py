@@ -15,7 +15,7 @@ import pandas
 from contact import resolving
 from design import drawn_points, scene_at, within
 from pandas import DataFrame
-from tables import RESULTS, fill, friction, of_count, solved, stored, table, task
+from tables import RESULTS, errors_of, fill, friction, share_of, solved, stored, table, task
 
 from bem3d import BEM
 from compare import FrictionLaw, Persson
@@ -141,20 +141,13 @@ def rows(found):
     """Number of scenes, error of each model in the median and at nine in ten, and coverage, by region."""
     for region, where in ROWS.items():
         own = found.query(where)
-        yield region, str(len(own)), *(_cell(own[name]) for name in MODELS), *_covered(own)
+        yield region, str(len(own)), *(errors_of(own[name]) for name in MODELS), *_covered(own)
 
 
 def _covered(own):
     """Half of the interval, and how many it holds; nothing where there are no intervals."""
-    half, held = np.expm1(own["half"].median()), own["held"]
-    share, low, high = 100 * held.mean(), *(100 * of_count(int(held.sum()), len(held)))
-    return ("", "") if np.isnan(half) else (f"{100 * half:.2g} %", f"{share:.0f} % ({low:.0f} to {high:.0f})")
-
-
-def _cell(logs):
-    off = 100 * np.abs(np.expm1(logs.dropna()))
-    shown = (f"{float(f'{each:.2g}'):g}" for each in off.quantile([0.5, 0.9]))
-    return f"{' / '.join(shown)} % ({len(off)})" if len(off) else ""
+    half = np.expm1(own["half"].median())
+    return ("", "") if np.isnan(half) else (f"{100 * half:.2g} %", share_of(own["held"]))
 
 
 def unseen():

@@ -5,8 +5,8 @@ python docs/measure/planes.py fit   fits S to that table: compare/models/law/sha
 """
 
 import sys
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from collections import namedtuple
+from dataclasses import replace
 from itertools import pairwise
 from math import nan, pi
 
@@ -23,7 +23,6 @@ from bem3d.heights import heights
 from compare.models.exact import full_contact
 from compare.models.law.bands import Bands, FullContact
 from compare.models.law.parts import FITTED, Share, coefficients, waves
-from compare.solving.task import SceneTask
 from scene import Plane, Scene, SelfAffine, Slide
 
 TABLE = RESULTS / "law/planes.csv"
@@ -45,22 +44,9 @@ FLOOR = 0.02  # of the misfit of a plane, below which one counts no more than an
 PLACES = 5e-3, 0.015, 0.03, 0.07, 0.15, 0.3, 0.6, 1.2, 3.0
 
 
-@dataclass(frozen=True)
-class PlaneContact:
-    """One plane under one pressure.
-
-    number : of the plane
-    scene : its first surface; tasks : see `tasks`
-    friction, pressure : of these waves in full contact, an area [Pa], and rms [Pa]
-    waves : numbers of these waves, see `share.waves`
-    """
-
-    number: int
-    scene: Scene
-    tasks: tuple[SceneTask, ...]
-    friction: float
-    pressure: float
-    waves: Mapping[str, float]
+# One plane under one pressure: its number, its first surface, see `tasks`, friction of these waves in full
+# contact, an area [Pa], and rms pressure [Pa], and numbers of these waves, see `share.waves`.
+PlaneContact = namedtuple("PlaneContact", "number scene tasks friction pressure waves")
 
 
 def tasks(scene, count, checked):
