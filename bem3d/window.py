@@ -249,9 +249,9 @@ def _reach(start):
 
 
 def doubts(scene: Scene, grid: Grid) -> tuple[Doubt, ...]:
-    """Doubts about how well a grid shows the shortest wave, and the layer."""
+    """Doubts about how well a grid shows the shortest wave, where it holds it, and the layer."""
     found, (_, shortest) = [], _shortest(scene)
-    if shortest is not None and shortest < RESOLVED * grid.pixel:
+    if shortest is not None and 2 <= shortest / grid.pixel < RESOLVED:
         why = "two are the least, about eight resolve the wave: use more points, or longer waves"
         found.append(Doubt("pixels in 3D on the shortest wave", shortest / grid.pixel, RESOLVED, "", why))
     if reasons := _falsified(scene, grid):
