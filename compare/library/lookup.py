@@ -26,7 +26,7 @@ SeveralScenes: TypeAlias = SceneLike | Sequence[str | Path] | Mapping[str, Scene
 def named_cases(asked: SeveralScenes | None = None) -> dict[str, Case]:
     """Cases by name: one, several by their names or those of their files, or the paper's sphere and cone of none.
 
-    Raises InvalidInput, and Refused of a case that cannot be compared.
+    Raises InvalidInput.
     """
     if asked is None or isinstance(asked, str | Path | Sequence):
         several: dict[str, Any] = {}
@@ -39,10 +39,7 @@ def named_cases(asked: SeveralScenes | None = None) -> dict[str, Case]:
                 )
     else:
         several = dict(asked) if isinstance(asked, Mapping) else {"scene": asked}
-    cases = {name: case_of(each) for name, each in several.items()}
-    for case in cases.values():
-        case.refuse()
-    return cases
+    return {name: case_of(each) for name, each in several.items()}
 
 
 def case_of(asked: SceneLike) -> Case:

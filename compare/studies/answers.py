@@ -57,7 +57,6 @@ class Planned:
     accuracies : what intervals of this contact take in 3D; empty where its scatter is not known, or none
     reason : why it solves nothing; empty where it does
     doubts, notes : about the scene, and on what was read for it
-    interval : of the scene, which takes more contacts than these; null where it states none
     """
 
     solvers: dict[str, Plan | str]
@@ -69,7 +68,6 @@ class Planned:
     reason: str
     doubts: tuple[str, ...]
     notes: tuple[str, ...]
-    interval: float | None
 
 
 @dataclass(frozen=True)
@@ -118,7 +116,6 @@ def answer(found: Any) -> Answer:
                 reason="" if cost else str(found.cost),
                 doubts=found.doubts,
                 notes=tuple(notes(found.scene)),
-                interval=found.interval,
             )
         case Listing():
             return Listed({name: Offered(each.title, each.about) for name, each in found.items()})

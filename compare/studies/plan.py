@@ -19,17 +19,19 @@ from ..library.lookup import SceneLike, case_of
 from ..models.law.extended import ExtendedBEM
 from ..models.table import KNOWN
 from ..solving.cost import Cost, seconds_per_work, work_of
+from ..solving.curve import on_levels
 from ..solving.words import duration, pascals, seconds, share
-from ..statistics.multilevel import OWN_SHARE
+from ..statistics.multilevel import MARGIN, OWN_SHARE
 from ..trustmap.model import NORMAL
 from ..trustmap.verdict import Advice, trust
 from .comparison.around import FINER, Around, extended_of
+from .comparison.series import pilot
 
 WIDTH = 100
 WHOLE = {"break_long_words": False, "break_on_hyphens": False}
 INDENT = 11  # of the lines, after their names
 INTERVALS = 0.1, 0.05, 0.02, 0.01
-FEWEST = 2  # surfaces, below which no scatter is seen
+LEFT = 0.6  # of the scatter of a surface that control variates leave on coarse grids: 16 to 42 % of its variance
 # Error of friction on the plateau times the square of the pixels on the shortest wave: docs/results/accuracy.md.
 GRID_ERROR = 1.7
 MOST_POINTS = 16384  # a side
@@ -40,9 +42,9 @@ class Accuracy:
     """What an interval of 95 % of the mean over rough surfaces takes in 3D, of the scene as it stands.
 
     interval : half-width, relative
-    surfaces : by the scatter that the trust map expects
+    surfaces : by the scatter that the trust map expects; all but a few are solved on the coarsest grid
     points : a side of a grid whose error leaves room for it, no fewer than stated
-    seconds : processor time, a forecast; coarser grids in place of most surfaces spare a part of it
+    seconds : processor time, a forecast
     """
 
     interval: float
@@ -59,11 +61,15 @@ class Accuracy:
             if (over := error / (OWN_SHARE * interval)) > 1:
                 solver = replace(solver, points=min(2 * ceil(solver.points * sqrt(over) / 2), MOST_POINTS))
                 error = OWN_SHARE * interval
-        surfaces = max(FEWEST, ceil((NORMAL * scatter / (interval - error)) ** 2))
-        return cls(interval, surfaces, solver.points, seconds_per_work() * surfaces * work_of(solver, scene))
+            scatter *= LEFT
+        works = [work_of(each, scene) for each in on_levels(solver, [scene]).values()]
+        *finer, least = pilot(len(works))
+        counts = [*finer, max(least, ceil(MARGIN * (NORMAL * scatter / (interval - error)) ** 2))]
+        work = sum(count * sum(works[k : k + 2]) for k, count in enumerate(counts))
+        return cls(interval, sum(counts), solver.points, seconds_per_work() * work)
 
     def __str__(self) -> str:
-        counted = f"{self.surfaces:,} surfaces of {self.points} points a side"
+        counted = f"{self.surfaces:,} surfaces on up to {self.points} points a side"
         return f"{share(self.interval)}: {counted}, {seconds(self.seconds)} in 3D"
 
 
@@ -77,12 +83,11 @@ class Plans(dict[str, Plan | str | Advice]):
     cost : what all contacts of `crosscheck run` take; the reason where it solves none
     refused : whether that refuses the numbers of a scene of a kind that it compares
     doubts : about the scene, and notes on what was read for it, as sentences
-    interval : of the case, which takes more surfaces than those of a first look; None if it has none
     """
 
     def __init__(self, case: Case) -> None:
         super().__init__({each.name: planned(each, case.scene) for each in (case.mdr, case.bem)})
-        self.case, self.scene, self.interval = case, case.scene, case.interval
+        self.case, self.scene = case, case.scene
         self.cost, self.refused, self.doubts = _cost(case)
         self["trust"] = self.advice = trust(case.scene)
 
@@ -127,8 +132,6 @@ class Plans(dict[str, Plan | str | Advice]):
         plans, times = self._plans, list[str]()
         if isinstance(self.cost, Cost):
             contacts = f"at most {self.cost.contacts:,}, solved by crosscheck run"
-            if self.interval is not None:
-                contacts += f", and as many more as intervals of {share(self.interval)} take (run --interval)"
             yield "contacts", contacts if plans else f"{contacts} with {' and '.join(FINER)}"
             times.append(f"about {duration(self.cost.seconds)} on one processor")
         elif self.refused and plans:

@@ -11,9 +11,12 @@ from small_cases import SCENE, SMALL
 from solids import gel
 
 import compare
+from bem3d import BEM
 from compare.library.lookup import case_of
+from compare.solving.cost import seconds_per_work, work_of
 from compare.studies.answers import answer
 from compare.studies.comparison import asked
+from compare.studies.comparison.series import pilot
 from compare.studies.plan import plans
 from scene import Doubtful, Scene, Slide, Sphere
 
@@ -52,20 +55,15 @@ def test_a_plan_counts_the_contacts_that_a_run_solves(written):
     assert f"contacts   at most {cost.contacts:,}, " in ask("plan", path).output
 
 
-def test_a_plan_names_the_interval_of_a_scene_and_the_option_that_asks_for_another():
-    found = plans("paper-sphere")
-    assert found.interval == 0.05
-    assert "and as many more as intervals of 5 % take (run --interval)" in " ".join(str(found).split())
-    assert "--interval" not in str(plans("quick-start"))
-
-
 def test_a_plan_says_what_intervals_take_before_anything_is_solved():
     found = plans("quick-start")
-    ten, *_, one = found.accuracies
+    ten, _, two, one = found.accuracies
     assert [each.interval for each in found.accuracies] == [0.1, 0.05, 0.02, 0.01]
-    assert one.surfaces >= 90 * ten.surfaces / 1.5  # the square of ten, but for whole numbers and the grid
-    assert one.seconds > 50 * ten.seconds
-    assert f"10 %: {ten.surfaces} surfaces of 64 points a side, " in str(found)
+    assert ten.surfaces == sum(pilot(2))
+    # the square of two, and more as the grid takes its part
+    assert 3 < (one.surfaces - 4) / (two.surfaces - 4) < 8
+    assert 3 < one.seconds / two.seconds < 8
+    assert f"10 %: {ten.surfaces} surfaces on up to 64 points a side, " in str(found)
     assert answer(found).accuracies == found.accuracies
     # where waves are short the grid leaves no room for narrow intervals: more points are needed
     coarse = plans(replace(found.case, roughness=replace(found.scene.roughness, shortest=2e-4))).accuracies
@@ -75,6 +73,16 @@ def test_a_plan_says_what_intervals_take_before_anything_is_solved():
     for none in ("hertz", "there-and-back", "rough-plane"):
         assert all(each.surfaces for each in plans(none).accuracies)
     assert plans("hertz").accuracies == ()
+
+
+@pytest.mark.slow
+def test_a_sweep_to_an_interval_takes_the_work_that_was_planned(tmp_path):
+    planned, scene = plans("paper-sphere").accuracies[2], case_of("paper-sphere").scene
+    found = compare.sweep("paper-sphere", interval=planned.interval, output=tmp_path, report=False)
+    found = found.sel(model="BEM", level=found["points"].sel(model="BEM") > 0)
+    works = [work_of(BEM(points=int(each)), scene) for each in found["points"]]
+    spent = float(found["friction_force"].notnull().sum("surface").values.ravel() @ works)
+    assert 0.5 < planned.seconds / seconds_per_work() / spent < 2
 
 
 # A solid with the shortest time that a number holds.

@@ -46,6 +46,8 @@ def run(
     wanted = share_of("interval", interval)
     try:
         cases, chosen = named_cases(scene), listed(models)
+        for case in cases.values():
+            case.refuse()
         folders(cases, "case")
         series = tuple(Around(name, case, chosen, reference, wanted) for name, case in cases.items())
         names = sorted({each.name for one in series for each in one.models})

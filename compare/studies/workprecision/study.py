@@ -5,7 +5,6 @@ from dataclasses import asdict, dataclass, replace
 from functools import cached_property
 from itertools import groupby
 from math import isfinite, nan
-from pathlib import Path
 from typing import Any
 
 import xarray
@@ -18,7 +17,7 @@ from scene.scales import elastic_contact
 
 from ...figures.plot import Plot
 from ...library.case import Case, doubted
-from ...library.lookup import SeveralScenes, case_of, named_cases
+from ...library.lookup import SeveralScenes, named_cases
 from ...models.exact import Exact
 from ...models.law.persson import Persson
 from ...models.table import Model, ModelLike, listed, named
@@ -73,11 +72,7 @@ class WorkPrecision(Study):
 
         Raises InvalidInput, and Refused of a scene that nothing can be measured against.
         """
-        if not isinstance(scene, Mapping):
-            several: Any = scene if isinstance(scene, list | tuple) else [] if scene is None else [scene]
-            scene = {Path(each).stem if isinstance(each, str | Path) else "scene": each for each in several}
-        cases = {name: case_of(each) for name, each in scene.items()}
-        study = cls(cases or named_cases(), listed(models))
+        study = cls(named_cases(scene), listed(models))
         for name, (first, *_) in study.ladders.items():
             if not first.solvers:
                 raise Refused(f"{name}: 3D, which others are measured against, refuses it: {first.refused[0][1]}")
