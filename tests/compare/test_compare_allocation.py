@@ -140,6 +140,7 @@ def friction(dataset, end):
     return dataset[f"friction_coefficient_{end}"].sel(speed=[0.1, 1.0]).values
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("in_this_process")
 def test_a_sweep_reaches_the_interval_resumes_and_agrees_with_fixed_draws(tmp_path):
     # rest among the speeds hides no friction of those that slide

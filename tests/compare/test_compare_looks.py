@@ -333,6 +333,7 @@ def test_what_has_no_answer_is_crossed_on_the_axis_and_without_an_end_there_is_n
     assert [len(each) > 1 for each in bars.get_segments()] == [False, True, False]  # places of both ends
 
 
+@pytest.mark.slow
 def test_threads_that_draw_at_once_draw_as_one_alone():
     def drawn_in(chosen):
         return picture(sample("friction-figure"), look=style.Look(chosen)).files

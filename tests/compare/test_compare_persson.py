@@ -129,6 +129,7 @@ def test_what_the_theory_is_not_of_is_refused_by_name(changed, message):
         solved(**changed)
 
 
+@pytest.mark.slow
 def test_where_nobody_asks_for_it_the_theory_is_drawn_and_not_judged(tmp_path):
     by_default = compare.run({"tiny": TINY}, tmp_path, report=False)
     assert not by_default.findings["model"].str.contains("Persson").any()

@@ -179,7 +179,7 @@ def test_beyond_a_slope_of_one_there_is_no_advice_for_either_solver(changed, ste
 def test_no_scene_breaks_the_map_and_one_surface_says_something_or_that_it_says_nothing():
     """The scatter of a single surface had no bound: intervals over 40 decades, and an OverflowError beyond."""
     silent = 0
-    for point in (*range(40), *range(design.WIDE, design.WIDE + 20)):
+    for point in (*range(20), *range(design.WIDE, design.WIDE + 10)):
         found = trust(design.scene(point))
         for worth in found.corrections.values():
             nothing = verdict.NOTHING in worth.reason
@@ -189,7 +189,7 @@ def test_no_scene_breaks_the_map_and_one_surface_says_something_or_that_it_says_
                 assert worth.surface_low <= worth.low <= worth.ratio <= worth.high <= worth.surface_high
                 assert worth.surface_high / worth.surface_low < 1e3
             silent += nothing
-    assert 0 < silent < 30
+    assert 0 < silent < 15
 
 
 MANY = SelfAffine(hurst=0.6, rms_height=1e-5, longest=8e-3, rolloff=2e-3, shortest=2.5e-4, seed=3)
