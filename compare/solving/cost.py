@@ -125,5 +125,4 @@ class Cost:
             raise Refused(f"{self}: at most {MOST_CONTACTS:,} contacts are solved in one study")
         if (self.seconds > DAY * workers or self.contacts > MANY_CONTACTS) and not yes:
             why = "more than a day" if self.seconds > DAY * workers else f"more than {MANY_CONTACTS:,} contacts"
-            on = f"{workers} processor{'' if workers == 1 else 's'}"
-            raise Refused(f"{self}: {why} on {on}. Ask for less, or agree to it: --yes, from Python yes=True")
+            raise Refused(f"{self}: {why} (workers = {workers}). Ask for less, or agree to it: --yes, yes=True")

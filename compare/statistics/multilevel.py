@@ -77,7 +77,7 @@ def pooled(dataset: xarray.Dataset) -> xarray.Dataset:
         if "surface" not in each.dims or name in SPENT or each.dtype.kind != "f":
             continue
         ordered = each.transpose("level", ..., "surface")
-        values = ordered.values.copy()
+        values = ordered.where(np.isfinite(ordered)).values
         if variates is not None:
             rows = np.flatnonzero(strata == levels - 1)
             own = variates.transpose(*ordered.dims[1:], "variate").values[..., rows, :]

@@ -54,7 +54,7 @@ def test_of_a_whole_study_it_is_an_upper_bound_as_curves_share_contacts(asked):
 @pytest.mark.parametrize(
     ("contacts", "days", "message"),
     [
-        (10, 2.1, "more than a day on 2 processors"),
+        (10, 2.1, r"more than a day \(workers = 2\)"),
         (MANY_CONTACTS + 1, 0.1, "more than 300,000 contacts"),
     ],
 )

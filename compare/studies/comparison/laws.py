@@ -66,7 +66,7 @@ class Laws:
 
 
 def laws(curve: Curve, answers: xarray.Dataset) -> Laws | None:
-    """Laws for a rough body of revolution that slides; None of others, and where no solve has an answer.
+    """Laws for a rough body of revolution that slides; None of others, and where no solve answers all waves.
 
     answers : of a single model on the curve. The load in Eqs. 18 to 23 is theirs, or the prescribed load where
         every solve failed; the slope is the solver's own measure
@@ -76,7 +76,7 @@ def laws(curve: Curve, answers: xarray.Dataset) -> Laws | None:
     slides = isinstance(scene.motion, Indent | Slide) and speeds.size and isinstance(shape, Axisymmetric)
     if not (slides and scene.roughness and {"rms_slope", "pixel"} <= set(moving.variables)):
         return None
-    if not moving["normal_force"].notnull().any():
+    if "shortest_kept" in moving.variables or not moving["normal_force"].notnull().any():
         return None
     solid, body = scene.solid, (shape.mdr_coefficient, shape.exponent)
     slope, pixel = (float(np.nanmean(moving[name].values)) for name in ("rms_slope", "pixel"))
