@@ -195,7 +195,8 @@ def _nonnegative(matrix, target):
     # Only tables need it.
     from scipy.optimize import nnls
 
-    size = np.linalg.norm(matrix, axis=0) + (matrix[0] == 0)
+    size = np.linalg.norm(matrix, axis=0)
+    size += size == 0
     return nnls(matrix / size, target, maxiter=100 * len(size))[0] / size
 
 
