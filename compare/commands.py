@@ -153,8 +153,8 @@ def run(
 
     interval : wanted half-width of the intervals of 95 %, relative, as 2%; 5 % of a scene that states no numbers
         of surfaces and profiles, whose place it takes: many are solved on coarse grids, few on finer ones, until
-        every claim is decided or its interval is so narrow, and so are those of the scene's own friction, depth or
-        force, which is solved before the curves around it
+        the intervals of the scene's own friction, depth or force are so narrow. That contact is solved before the
+        curves around it; a claim on these that stays open says how many surfaces would decide it
     """
     from .studies.comparison import asked
 
@@ -266,9 +266,15 @@ def mastercurve(
     from .studies.mastercurve.study import Mastercurve
 
     form = table_form(
-        columns=columns, units=units, where=where,
-        separator=separator, decimal=decimal, encoding=encoding, skip=skip, rows=rows,
-    )  # fmt: skip
+        columns=columns,
+        units=units,
+        where=where,
+        separator=separator,
+        decimal=decimal,
+        encoding=encoding,
+        skip=skip,
+        rows=rows,
+    )
     study = Mastercurve.of(table, tolerance, c1, c2, reference, **form)
     return solve(study, output, **options)
 
@@ -300,9 +306,15 @@ def topography(
     from .studies.topography.study import Map
 
     form = table_form(
-        columns=columns, units=units, where=where,
-        separator=separator, decimal=decimal, encoding=encoding, skip=skip, rows=rows,
-    )  # fmt: skip
+        columns=columns,
+        units=units,
+        where=where,
+        separator=separator,
+        decimal=decimal,
+        encoding=encoding,
+        skip=skip,
+        rows=rows,
+    )
     study = Map.of(
         file,
         pixel=pixel,

@@ -157,8 +157,8 @@ Interval = Annotated[
     Amount | None,
     Option(
         help="Wanted half-width of the intervals of 95 %, relative, as 2%. It takes the place of numbers of"
-        " surfaces and profiles: many are solved on coarse grids, few on finer ones, until every claim is decided"
-        " or every interval is so narrow."
+        " surfaces and profiles: many are solved on coarse grids, few on finer ones, until intervals are that"
+        " narrow. In run these are of the scene's own contact, in study of every claim that is not decided before."
     ),
     "From Python also a number, as 0.02.",
 ]

@@ -31,7 +31,8 @@ WIDTH = 100
 WHOLE = {"break_long_words": False, "break_on_hyphens": False}
 INDENT = 11  # of the lines, after their names
 INTERVALS = 0.1, 0.05, 0.02, 0.01
-LEFT = 0.6  # of the scatter of a surface that control variates leave on coarse grids: 16 to 42 % of its variance
+# Share of the scatter that control variates leave on coarse grids: 16 to 42 % of the variance.
+SCATTER_LEFT = 0.6
 # Error of friction on the plateau times the square of the pixels on the shortest wave: docs/results/accuracy.md.
 GRID_ERROR = 1.7
 MOST_POINTS = 16384  # a side
@@ -61,7 +62,7 @@ class Accuracy:
             if (over := error / (OWN_SHARE * interval)) > 1:
                 solver = replace(solver, points=min(2 * ceil(solver.points * sqrt(over) / 2), MOST_POINTS))
                 error = OWN_SHARE * interval
-            scatter *= LEFT
+            scatter *= SCATTER_LEFT
         works = [work_of(each, scene) for each in on_levels(solver, [scene]).values()]
         *finer, least = pilot(len(works))
         counts = [*finer, max(least, ceil(MARGIN * (NORMAL * scatter / (interval - error)) ** 2))]
@@ -132,6 +133,7 @@ class Plans(dict[str, Plan | str | Advice]):
         plans, times = self._plans, list[str]()
         if isinstance(self.cost, Cost):
             contacts = f"at most {self.cost.contacts:,}, solved by crosscheck run"
+            contacts += ", and more as its interval asks" * (self.case.interval is not None)
             yield "contacts", contacts if plans else f"{contacts} with {' and '.join(FINER)}"
             times.append(f"about {duration(self.cost.seconds)} on one processor")
         elif self.refused and plans:

@@ -134,8 +134,12 @@ def _with_law(scene, kept, found) -> dict[str, float]:
         added = max(whole.friction_coefficient - own, 0.0)
     shortest = cut.shortest if cut else inf
     if total := solved + added:
-        area, rough = found.measures["contact_area"], whole.rough / whole.friction_coefficient
-        half = uncertainty(added=added / total, waves=area / shortest**2, x=whole.x, rough=rough)
+        half = uncertainty(
+            added=added / total,
+            waves=found.measures["contact_area"] / shortest**2,
+            x=whole.x,
+            rough=whole.rough / whole.friction_coefficient,
+        )
     return {
         "shortest_kept": shortest,
         "slope_kept": slope(left) / slope(every),

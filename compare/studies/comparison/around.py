@@ -276,7 +276,7 @@ class Around(Series):
         return isinstance(self.case.motion, Program | Shear)
 
     def more(self, answers: Answers, findings: Sequence[Finding]) -> dict[str, Counts]:
-        """Those that its own contact asks for: an open claim on the curves says how many would decide it."""
+        """Numbers of surfaces that its own contact asks for; open claims on the curves around it ask for none."""
         return super().more(answers, [each for each in findings if each.curve == self.place(OWN)])
 
     def judge(self, answers: Answers) -> Judged:
