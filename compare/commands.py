@@ -110,19 +110,19 @@ def solve(
     executor: Executor | None = None,
     report: WithReport = True,
     yes: Yes = False,
-    progress: bool | str | None = False,
+    progress: bool | None = False,
 ) -> Report:
     """Do a study, one of your own too: solve what the folder has not, judge, and write the page.
 
     study : an object of a class derived from `compare.Study`
     executor : object with `submit`, as those of concurrent.futures; it gets as many contacts at once as `workers`
-    progress : whether the terminal shows how far it is; "lines" for a line for each contact and each figure
+    progress : whether the terminal shows how far it is
     """
     from .solving.terminal import Shown
     from .studies import pipeline
 
     _warn(study.doubts)
-    with Shown(lines=progress == "lines") if progress else nullcontext() as shown:
+    with Shown() if progress else nullcontext() as shown:
         found = pipeline.run(study, output, workers, scheduler, executor, report, yes, shown)
     _warn([" ".join(found.unsolved.sentences)] if found.unsolved.failed else [])
     return found

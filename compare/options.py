@@ -104,7 +104,7 @@ class Options(TypedDict, total=False):
     executor: "Executor | None"
     report: WithReport
     yes: Yes
-    progress: bool | str | None
+    progress: bool | None
 
 
 # Scenes and models.

@@ -94,7 +94,7 @@ app = typer.Typer(
 Quiet = Annotated[bool, Option("-q", "--quiet", help="Print mistakes only.")]
 Verbose = Annotated[
     bool,
-    Option("-v", "--verbose", help="Print every number and detail, and a line for each solve and each figure."),
+    Option("-v", "--verbose", help="Print every number and detail."),
 ]
 AsJson = Annotated[bool, Option("--json", help="Print the answer as JSON: see crosscheck schema answers.")]
 
@@ -128,7 +128,7 @@ def _add(
             warnings.filterwarnings("ignore", category=UserWarning, module=re.escape(__name__))
             warnings.showwarning = lambda message, *_: say(f"crosscheck: {message}", error=True)
             if solves and not (quiet or json):
-                given["progress"] = "lines" if verbose else True
+                given["progress"] = True
             found = (reported or function)(**given)
         _tell(found, text, quiet, verbose, json)
 
@@ -195,7 +195,7 @@ _add(commands.regress)
 _add(commands.mastercurve)
 _add(commands.topography)
 _add(commands.plan, details=True)
-_add(commands.scenes, details=True)
+_add(commands.scenes)
 _add(commands.new, text=_written_ready)
 _add(commands.schema, text=_schema)
 _add(commands.export, text=_paths)

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
-from textwrap import wrap
 from typing import Any
 
 from ..solving.suggest import known
@@ -14,7 +13,6 @@ from ..solving.suggest import known
 _STATED = re.compile(r'^(title|about) = "(.+)"$', re.MULTILINE)
 _END = "\n#\n"  # of what a file is about, in the comment with which it begins
 _ALONE = "from Python"  # how it is solved, in the same comment of a scene that cannot be compared
-WIDTH = 100
 FOLDERS = {"scene": "scenes", "study": "studies"}  # by kind
 # Headings of scenes by the command that takes them, and of studies.
 SCENES = {
@@ -59,14 +57,6 @@ class Listing(dict[str, Any]):
         self.groups, self.end = groups, end
 
     def __str__(self) -> str:
-        return self._table()
-
-    @property
-    def details(self) -> str:
-        """The table with what each is about: what the command prints under -v."""
-        return self._table(about=True)
-
-    def _table(self, about: bool = False) -> str:
         width = max(map(len, self), default=0) + 2
         lines = []
         for heading, names in self.groups.items():
@@ -74,15 +64,6 @@ class Listing(dict[str, Any]):
             lines += [f"{'Name':{width}s}Title", "-" * (width + max(len(self[name].title) for name in names))]
             for name in names:
                 lines.append(f"{name:{width}s}{self[name].title}")
-                if about:
-                    indent = " " * width
-                    lines += wrap(
-                        self[name].about,
-                        WIDTH,
-                        initial_indent=indent,
-                        subsequent_indent=indent,
-                        break_on_hyphens=False,
-                    )
             lines.append("")
         return "\n".join([*lines, self.end]).strip("\n")
 

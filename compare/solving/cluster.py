@@ -1,7 +1,7 @@
 """Workers of a dask.distributed cluster, with the same code. This process alone stores their answers."""
 
-import asyncio
 import logging
+import re
 import time
 from collections.abc import Callable
 from concurrent.futures import Future, wait
@@ -15,6 +15,7 @@ from scene.printable import brief
 
 from .executors import Workers
 
+ADDRESS = re.compile(r"\w+://[^\s/]+:\d+")
 EXTRA = "pip install mdr-bem-crosscheck[cluster]"
 # Seconds in which a scheduler answers, after which it is lost, in which it lets go, between two looks at it.
 ANSWERS, LOST, LETS_GO, LOOKS = 4.0, 30.0, 2.0, 1.0
@@ -40,6 +41,8 @@ class Cluster(Workers):
         self.threads, self.looked = 1, 0.0
 
     def __enter__(self):
+        if not ADDRESS.fullmatch(self.address):
+            raise Refused(f"scheduler = {brief(repr(self.address))}: an address, as tcp://name:8786")
         try:
             from distributed import Client, KilledWorker
         except ImportError as error:
@@ -49,8 +52,11 @@ class Cluster(Workers):
             for logger in map(logging.getLogger, NOISE):  # a lost connection is reported in one line
                 stack.callback(logger.setLevel, logger.level)
                 logger.setLevel(logging.CRITICAL)
-            _refuse_other(self.address)
-            self.client = self._asked(partial(Client, self.address, timeout=ANSWERS, set_as_default=False))
+            try:
+                client = partial(Client, self.address, timeout=ANSWERS, set_as_default=False)
+                self.client = answer_within(2 * ANSWERS, client)
+            except (OSError, ValueError) as error:
+                raise ConnectionError(f"no scheduler of dask answers at {brief(self.address)}") from error
             stack.callback(self._let_go)
             self.executor = self.client.get_executor(pure=False)
             self.stack = stack.pop_all()
@@ -88,35 +94,6 @@ class Cluster(Workers):
             return answer_within(LOST, ask)
         except (OSError, TimeoutError, ValueError) as error:
             raise ConnectionError(self.lost) from error
-
-
-def _refuse_other(address: str) -> None:
-    """Raise Refused of what is no address, ConnectionError where no scheduler answers.
-
-    A client at an address that is none of a scheduler would wait for ever, and hold the end of the program.
-    """
-    from distributed import Security
-    from distributed.comm import get_address_host_port, resolve_address
-    from distributed.core import rpc
-
-    async def kind():
-        secure = Security().get_connection_args("client")
-        async with rpc(resolve_address(address), timeout=ANSWERS, connection_args=secure) as there:
-            return (await there.identity())["type"]
-
-    try:
-        host, port = get_address_host_port(address)  # inproc:// has none
-        if not (host.encode("idna") and 0 < port < 2**16):
-            raise ValueError
-    except (TypeError, ValueError) as error:
-        raise Refused(f"scheduler = {brief(repr(address))}: an address, as tcp://name:8786") from error
-    try:
-        if answer_within(ANSWERS, lambda: asyncio.run(asyncio.wait_for(kind(), ANSWERS))) == "Scheduler":
-            return
-        reason = "another program answers there"
-    except Exception as error:
-        reason = brief(f"{type(error).__name__} {error}".strip())
-    raise ConnectionError(f"{brief(address)} is no scheduler of dask that answers within {ANSWERS:g} s: {reason}")
 
 
 def answer_within(seconds: float, ask: Callable[[], Any]) -> Any:

@@ -41,8 +41,6 @@ SOLVED, FINER, EMPTY, FAILED, NOT_ASKED = (
     "solved", "solved on a finer grid", "no contact", "failed", "not asked"
 )  # fmt: skip
 NO_DRAWS = "none"  # of a model that answers for all surfaces at once
-ROOM = 1.5  # times the points that a line takes at least: then others of its family do not need more
-MOST_ASKED = 1000  # lines drawn, whether each fits its grid
 TOGETHER = 8  # profiles of a stratum that are one task, so that more of them leave those before as they are
 POINTS = re.compile(r"(?<=points = )\d+")  # that a reason names: those of its solver, and those that would do
 # What a solver gives of every contact, by the names of a Dataset: there `depth` is one that is prescribed, which a
@@ -384,7 +382,7 @@ def refuse(curves: Iterable[Curve]) -> None:
 
     The reasons of a model concern the widest contact that it cannot solve: a remedy for it is a remedy for all.
     Only the corners of a curve are checked, between which nothing else is lacking. For the widest contact the
-    checks include failures that are foreseen and, where one line hardly fits its grid, whether every other fits.
+    checks include failures that are foreseen.
     """
     asked = [(each, levels) for each in curves for levels in each.levels.values()]
     asked.sort(key=lambda pair: -width(pair[0].corners[0]))
@@ -404,10 +402,7 @@ def _reason(solver, one, own):
     widest, *others = one.corners
     if why := why_not(solver, widest):
         return _against(solver, widest, why, own)
-    draws: tuple[Scene, ...] = ()
-    if isinstance(solver, MDR) and replace(solver, points=max(8, int(solver.points / ROOM))).refusals(widest):
-        draws = draws_of(widest, [seed for each in one.strata(solver.name) for seed in each][:MOST_ASKED])
-    for scene in (*others, *draws[1:]):
+    for scene in others:
         if why := lacking(solver, scene):
             return _against(solver, scene, why, own)
     return ""

@@ -1,6 +1,5 @@
 """Folders: their names and format, the run that holds them, and files that are written whole or not at all."""
 
-import errno
 import multiprocessing
 import os
 import re
@@ -104,8 +103,6 @@ def write(path: Path, fill: Callable[[IO[bytes]], Any]) -> None:
     Raises OSError, which names the file.
     """
     with _named(path), _part(path.parent) as part:
-        if path.exists() and not (path.is_file() or path.is_dir()):  # as a device, which a file would replace
-            raise OSError(errno.EINVAL, "is no regular file, and is not written over")
         with part.open("wb") as file:
             fill(file)
         os.replace(part, path)

@@ -20,15 +20,12 @@ PAUSE = 10.0  # seconds between lines where there is no terminal to draw a bar o
 class Shown(Progress):
     """What a person sees of a run, a bar for each phase: a context.
 
-    lines : whether a line is printed for each solve and each figure, in place of a bar
     clock : seconds that grow
     """
 
-    def __init__(
-        self, lines: bool = False, console: Console | None = None, clock: Callable[[], float] = time.monotonic
-    ) -> None:
+    def __init__(self, console: Console | None = None, clock: Callable[[], float] = time.monotonic) -> None:
         usual = Console(stderr=True, highlight=False, soft_wrap=True, force_jupyter=False)
-        self.lines, self.clock, self.console = lines, clock, console or usual
+        self.clock, self.console = clock, console or usual
         drawn = self.console.is_interactive
         # Where there is little room, the end of the last column is cut off.
         last = Column(ratio=1, no_wrap=True, overflow="ellipsis")
@@ -52,8 +49,7 @@ class Shown(Progress):
         self._begin("preparing")
 
     def __enter__(self) -> "Shown":
-        if not self.lines:
-            self.bar.live.start()
+        self.bar.live.start()
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -84,8 +80,6 @@ class Shown(Progress):
 
         def drawn(name: str) -> None:
             self.bar.update(self.row, advance=1, waits_for=f"{printable(name)} is drawn")
-            if self.lines:
-                self.message(f"  figure {name}")
 
         self._begin("drawing", count)
         yield drawn
@@ -116,8 +110,6 @@ class Shown(Progress):
         self.done += 1
         self.failed += any(row.reason is not None for row in outcome.rows)
         self.bar.update(self.row, advance=task.work, total=self.work, description="solving")
-        if self.lines:
-            self.message(", ".join([*self._counts(), f"solved {task.label}"]))
 
     def _failures(self) -> list[str]:
         return [f"{self.failed} failed"] if self.failed else []

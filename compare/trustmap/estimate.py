@@ -10,10 +10,10 @@ from scene.protocol import numeric_guard
 from ..models.law.bands import Bands
 from ..models.law.extended import without
 from ..models.law.nominal import mean_gap
-from ..models.law.parts import LawParts
+from ..models.law.parts import DEPTH, LawParts, known_errors
 from ..models.law.smooth import SPACE, SmoothContact
 from ..solving.words import interval
-from .friction_law import DEPTH, FrictionLaw, known_errors
+from .friction_law import FrictionLaw
 
 SCALES = {"m": (1e6, "µm"), "N": (1.0, "N"), "": (1.0, "")}
 SMOOTH = "the smooth contact on 64 and 128 points"

@@ -1,8 +1,7 @@
 """`FrictionLaw`: friction of a rough body in three dimensions, from its spectrum and the trust map."""
 
 from dataclasses import replace
-from math import exp, log, nan, pi
-from pathlib import Path
+from math import exp, nan, pi
 from time import process_time
 from typing import ClassVar
 
@@ -15,7 +14,7 @@ from scene.quantities import CLOSED
 from scene.signatures import readable
 from scene.terms import refused_parts
 
-from ..models.law.parts import MOST, LawParts, rows_of
+from ..models.law.parts import LawParts, known_errors
 from ..models.law.persson import OF_LAW
 from ..models.law.smooth import SPACE, SmoothContact
 from .measured import OffTheMap, Place, as_judged
@@ -115,49 +114,12 @@ def _law_over_3d(scene: Scene) -> tuple[LawParts, float, float]:
     """
     try:
         place = Place.of(as_judged(scene))
+        parts, known = place.law, not place.beyond
     except OffTheMap:
-        parts = LawParts.of(scene)
+        parts, known = LawParts.of(scene), False
+    if not parts.friction_coefficient:
+        return parts, 1.0, 0.0
+    if not known:
         return parts, nan, known_errors(scene, parts.x).half / NORMAL
-    if not place.law.friction_coefficient:
-        return place.law, 1.0, 0.0
-    if place.beyond:
-        return place.law, nan, known_errors(scene, place.law.x).half / NORMAL
     logarithm, error, _ = place.predicted(LAW)
-    return place.law, exp(logarithm), error
-
-
-TESTED = Path(__file__).with_name("outside.csv")
-DEPTH = "depth"
-UNTESTED = {"friction": log(3.0), DEPTH: 3.0}  # half an interval where no contact was tested: a guess
-
-
-@dataclass(frozen=True, config=CLOSED)
-class Tested:
-    """Errors of one surface by the bare law, on contacts whose waves are too many for the trust map.
-
-    least, most : p/p_rms of the contacts; contacts : their number, 0 where none was tested
-    half : half an interval of 95 %: of the logarithm of friction, or of the depth over the rms height
-    """
-
-    quantity: str
-    body: str
-    least: float
-    most: float
-    contacts: int
-    half: float
-
-    @property
-    def words(self) -> str:
-        """What the interval rests on."""
-        if not self.contacts:
-            return "no contact like it was tested, and its interval is a guess"
-        return f"{self.contacts} contacts with p/p_rms of {self.least:g} to {self.most:g} were that far off"
-
-
-def known_errors(scene: Scene, x: float, quantity: str = "friction") -> Tested:
-    """Errors of tested contacts of this kind of body; x : p/p_rms, above MOST of which all waves touch."""
-    body, x = "plane" if isinstance(scene.indenter, Plane) else "body", min(x, MOST)
-    none = Tested(quantity, body, x, x, 0, UNTESTED[quantity])
-    every = (Tested(**row) for row in rows_of(TESTED))
-    found = (each for each in every if (each.quantity, each.body) == (quantity, body))
-    return next((each for each in found if each.least <= x < each.most), none)
+    return parts, exp(logarithm), error

@@ -115,7 +115,7 @@ def _cell(row):
 
 def run_again():
     """Store the findings of the main job, and the first table that the example of README.md prints."""
-    stored(RUN, compare.run(progress="lines").findings)
+    stored(RUN, compare.run(progress=True).findings)
     with redirect_stdout(StringIO()) as printed:
         exec(example(README), {"__name__": "__main__"})
     shown = next(part for part in printed.getvalue().split("\n\n") if part.startswith(EXAMPLE))
@@ -125,7 +125,7 @@ def run_again():
 def studies_again():
     """Do the six studies at size standard, as far as they are not solved, and store their findings."""
     for name in STUDIES:
-        found = compare.study(name, "standard", progress="lines").findings
+        found = compare.study(name, "standard", progress=True).findings
         stored(STANDARD / f"{name}.csv", found.drop(columns=["regime", "meaning", "sentence"]))
 
 

@@ -1,9 +1,9 @@
 """Friction of surfaces far finer than a grid: contacts solved with every wave, and without their finest ones.
 
-python docs/measure/extended.py solve learned|more|further|tested   solves the contacts that
+python docs/measure/extended.py solve learned|more|further|again|tested   solves the contacts that
 docs/results/extended-SET.csv does not have yet, one by one, and adds the rows of each
-python docs/measure/extended.py   fits the intervals to all sets but the last, and writes how often they hold of it
-into docs/results/law.md; compare/trustmap/outside.csv has these, compare/models/law/extended.csv those of all sets
+python docs/measure/extended.py   fits the correction of the law and the intervals to all sets but the last, into
+compare/models/law/extended.csv and outside.csv, and writes how they do on the last into docs/results/law.md
 
 Contacts are drawn until each stratum has its number of those that a grid can show: with all waves on a grid of at
 most 4096^2 points, with a grid error of at most 1 %, and with at least one cut on a grid of 96^2 points or more.
@@ -24,16 +24,20 @@ from scipy.stats import t as student
 from tables import RESULTS, errors_of, fill, share_of, table
 
 from bem3d import BEM
-from compare.models.law.extended import UNCERTAINTY, scales, under, without
+from compare.models.law.extended import FITTED, LEARNED, numbers_of_cut, numbers_of_law, octaves, under, without
 from compare.models.law.nominal import mean_gap
-from compare.models.law.parts import LawParts, coefficients
-from compare.models.law.smooth import SmoothContact
-from compare.trustmap.friction_law import TESTED
+from compare.models.law.parts import TESTED, LawParts, coefficients
 from scene import Prony, Refused, Scene, SelfAffine, Slide, SolveError, Spectrum, Table, Tabulated
 from scene.scales import elastic_contact
 
 # Seed of each set, and contacts of each stratum in it.
-SETS = {"learned": (62_100, 18), "more": (62_200, 24), "further": (62_300, 24), "tested": (62_400, 24)}
+SETS = {
+    "learned": (62_100, 18),
+    "more": (62_200, 24),
+    "further": (62_300, 24),
+    "again": (62_400, 24),
+    "tested": (62_500, 24),
+}
 # Strata by p/p_rms with all waves, declared beforehand: the lightest contacts, light ones, partial and nearly full
 # ones.
 STRATA = {"lightest": (1e-4, 5e-3), "light": (5e-3, 0.05), "partial": (0.05, 0.5), "nearly full": (0.5, 20.0)}
@@ -48,7 +52,9 @@ FINE, USUAL, CUT = 16.0, 12.0, 8.0
 POINTS = (128, 160, 192, 256, 320, 384, 512, 640, 768, 1024, 1280, 1536, 2048, 2560, 3072, 4096)
 CUTS = 2, 4, 8, 16, 32  # shortest wave that is kept, over the shortest of all
 CONTACT = ["set", "number"]
-NAMES = ["one", "rough", "added", "few", "light"]  # of the coefficients of an interval
+CORRECTION = "one", "harder", "faster", "shorter", "spread", "pointed"  # numbers of the law that it is linear in
+STEPS = 5  # octaves below the deepest cut
+FOLDS = 20  # of the contacts, each left out once
 FREEDOMS = 4  # of Student's distribution of errors
 LEAST_CUT = 96  # points a side of the coarsest grid
 NEARLY = 0.8  # share of the points to the shortest wave that suffices
@@ -127,30 +133,22 @@ def table_of(solid):
 
 
 def row(contact, factor, shortest, points):
-    """Numbers of one solve, its law, and the law of all waves under the load that it found."""
+    """Numbers of one solve."""
     scene = contact.scene if factor == 1 else without(contact.scene, shortest)
     numbers = named(contact) | {"factor": factor, "points": points, "shortest": shortest}
     try:
         found = BEM(points=points).solve(scene)
     except (SolveError, Refused) as error:
         return numbers | {"reason": str(error)}
-    numbers |= {
+    return numbers | {
         "extent": found.settings["extent"],
+        "load": found.normal_force,
         "friction": found.friction_coefficient,
         "depth": found.depth,
         "error": found.measures["friction_error"],
         "pixels": found.measures["points_per_shortest_wave"],
         "area": found.measures["contact_area"],
         "rms_height": scene.roughness.rms_height,
-    }
-    try:
-        own, whole = (LawParts.of(under(each, found.normal_force)) for each in (scene, contact.scene))
-    except SolveError as error:
-        return numbers | {"reason": f"law: {error}"}
-    return numbers | {
-        "law": own.friction_coefficient,
-        "law_rough": own.rough,
-        "whole": whole.friction_coefficient,
     }
 
 
@@ -173,7 +171,7 @@ def solved(contact):
         if whole.get("pixels", inf) >= NEARLY * pixels or whole["extent"] <= extent:
             break
         extent = whole["extent"]  # of the contact with all waves, which is wider
-    if not (whole.get("whole", 0.0) > 0 and whole["error"] <= TRUE):
+    if not (whole.get("friction", 0.0) > 0 and whole["error"] <= TRUE):
         return [whole | {"reason": whole.get("reason", f"grid error {whole['error']:.2g}")}]
     rows = [whole]
     for factor in CUTS:
@@ -205,31 +203,39 @@ def solve(name):
 
 
 def errors(name):
-    """Logarithms of answer over truth, of each cut and of the law alone, and the gap of the depth."""
+    """Each cut of the contacts of a set, with what its answer is found from."""
     rows = read_csv(RESULTS / f"extended-{name}.csv")
-    rows = rows[rows["reason"].isna()]
-    true = rows[rows["factor"] == 1].set_index("number")
-    cut = rows[rows["factor"] > 1].join(true[["friction", "whole", "law_rough"]].add_prefix("true_"), on="number")
-    added = (cut["whole"] - cut["law"]).clip(lower=0)
-    total = cut["friction"] + added
-    cut["extended"] = np.log(total / cut["true_friction"])
-    cut["bare"] = np.log(cut["true_whole"] / cut["true_friction"])
-    rough = cut["true_law_rough"] / cut["true_whole"]
-    numbers = scales(added / total, cut["area"] / cut["shortest"] ** 2, cut["x"], rough)
-    return cut.assign(one=1.0, **numbers).merge(gaps(name, true), on="number", how="left")
-
-
-def gaps(name, true):
-    """Gap between the rough body and the smooth one, less the mean gap of a plane, over the rms height."""
-    found = []
+    rows, found = rows[rows["reason"].isna()], []
     for contact in candidates(name):
-        if contact.number > true.index.max():
-            break
-        if contact.number in true.index and contact.scene.motion.pressed_by == "load":
-            own, smooth = true.loc[contact.number], SmoothContact.of(contact.scene).depth
-            gap = (smooth - own["depth"]) / own["rms_height"] - mean_gap(contact.x)
-            found.append({"number": contact.number, "gap": gap})
-    return DataFrame(found)
+        if contact.number > rows["number"].max():
+            return pandas.concat(found, ignore_index=True)
+        own = rows[rows["number"] == contact.number].set_index("factor")
+        if len(own) > 1:
+            found.append(cuts_of(contact, own.loc[1], own.loc[2:]))
+
+
+def cuts_of(contact, true, cuts):
+    """Cuts of a contact: the steps of the law below each, errors of the law alone, and numbers of the interval.
+
+    steps : (STEPS, 1 + numbers) for each cut, what the law adds and the numbers of its correction, zeros if none
+    gap : between the rough body and the smooth one, over that of a plane, in rms heights
+    """
+    scene, taken = contact.scene, np.log2(cuts.index).astype(int)
+    parts = octaves(under(scene, true["load"]), cuts["shortest"].max())
+    whole, waves = parts[-1], cuts["area"] / cuts["shortest"] ** 2
+    more = np.diff([each.friction_coefficient for each in parts])
+    numbers = [[*numbers_of_law(each, scene.indenter.exponent).values()] for each in parts[1:]]
+    steps, gap = np.column_stack([more, numbers]), np.nan
+    if scene.motion.pressed_by == "load":
+        gap = (whole.contact.depth - true["depth"]) / true["rms_height"] - mean_gap(contact.x)
+    of_cut = [numbers_of_cut(parts[-1 - each], whole, own) for each, own in zip(taken, waves, strict=True)]
+    cuts = cuts.assign(
+        true=true["friction"],
+        bare=np.log(whole.friction_coefficient / true["friction"]),
+        gap=gap,
+        steps=[np.pad(steps[-each:], ((STEPS - each, 0), (0, 0))) for each in taken],
+    )
+    return cuts.join(DataFrame(of_cut, cuts.index).add_prefix("half_")).reset_index()
 
 
 def interval(quantity, body, least, most, logs):
@@ -239,29 +245,46 @@ def interval(quantity, body, least, most, logs):
     return dict(quantity=quantity, body=body, least=least, most=most, contacts=known.size, half=half)
 
 
-def likeliest(learned):
-    """Coefficients of the logarithm of half an interval of `extended`, of most likelihood."""
+def off_by(cuts, values):
+    """Logarithm of answer over truth of each cut."""
+    steps = np.stack(cuts["steps"])
+    excess = np.clip(steps[..., 1:] @ values.filter(like="excess_").to_numpy(), *LEARNED)
+    added = np.sum(steps[..., 0] * np.exp(-excess), axis=1)
+    return np.log((cuts["friction"] + np.maximum(added, 0)) / cuts["true"])
+
+
+def half_of(cuts, values):
+    """Half the interval of the logarithm of friction of each cut."""
+    chosen = values.filter(like="half_")
+    return np.exp(cuts[chosen.index] @ chosen)
+
+
+def likeliest(learned, start):
+    """Coefficients of the correction and of the logarithm of half the interval, of most likelihood together."""
 
     def unlikely(values):
-        half = np.exp(learned[NAMES].to_numpy() @ values)
-        return -student.logpdf(learned["extended"], FREEDOMS, scale=half / student.ppf(0.975, FREEDOMS)).sum()
+        values = Series(values, start.index)
+        scale = half_of(learned, values) / student.ppf(0.975, FREEDOMS)
+        return -student.logpdf(off_by(learned, values), FREEDOMS, scale=scale).sum()
 
-    return Series(minimize(unlikely, [-4.0, 1.0, 0.3, 0.3, 1.0]).x, NAMES)
+    return Series(minimize(unlikely, start).x, start.index)
 
 
 def fitted(learned):
-    """The likeliest coefficients, widened until all cuts hold of 95 % of the contacts, each left out in turn."""
-    missed = []
-    for _, own in learned.groupby(CONTACT):
-        half = np.exp(own[NAMES] @ likeliest(learned.drop(own.index)))
-        missed.append((own["extended"].abs() / half).max())
-    found = likeliest(learned)
-    found["one"] += np.log(np.quantile(missed, 0.95))
+    """The likeliest coefficients, widened until all cuts hold of 95 % of the contacts left out in turn."""
+    half = [name for name in learned if name.startswith("half_")]
+    start = Series(0.0, [*(f"excess_{name}" for name in CORRECTION), *half])
+    found, missed = likeliest(learned, start), []
+    for _, own in learned.groupby(learned["number"] % FOLDS):
+        values = likeliest(learned.drop(own.index), found)
+        over = off_by(own, values).abs() / half_of(own, values)
+        missed += [*over.groupby([own[name] for name in CONTACT]).max()]
+    found["half_one"] += np.log(np.quantile(missed, 0.95))
     return found
 
 
 def outside(learned):
-    """Rows of compare/trustmap/outside.csv."""
+    """Rows of compare/models/law/outside.csv."""
     alone = learned.drop_duplicates(CONTACT)
     for stratum, (least, most) in STRATA.items():
         yield interval("friction", "body", least, most, alone.loc[alone["stratum"] == stratum, "bare"])
@@ -275,15 +298,15 @@ def outside(learned):
 
 def rows_of(tested, values, alone):
     """Errors and coverage by stratum, of contacts that nothing was fitted to."""
-    half = np.exp(tested[NAMES] @ values)
-    tested = tested.assign(held=np.abs(tested["extended"]) <= half, half=half)
+    off, half = off_by(tested, values), half_of(tested, values)
+    tested = tested.assign(off=off, held=np.abs(off) <= half, half=half)
     bare = alone[alone["quantity"] + alone["body"] == "frictionbody"].set_index("least")["half"]
     for stratum in [*STRATA, "all"]:
         own = tested if stratum == "all" else tested[tested["stratum"] == stratum]
         first = own.drop_duplicates("number")
         widest = first["stratum"].map({key: bare[least] for key, (least, _) in STRATA.items()})
         cells = [errors_of(first["bare"]), share_of(np.abs(first["bare"]) <= widest)]
-        cells += [errors_of(own.loc[own["factor"] == factor, "extended"]) for factor in CUTS[:3]]
+        cells += [errors_of(own.loc[own["factor"] == factor, "off"]) for factor in CUTS[:3]]
         half = f"{100 * np.expm1(own['half'].median()):.2g} %"
         yield stratum, str(len(first)), *cells, half, share_of(own["held"])
 
@@ -296,7 +319,8 @@ def main():
     values, alone = fitted(learned), DataFrame(outside(learned))
     # Those in use have learned from all contacts; those before, from contacts that they are not tested on.
     used = fitted(pandas.concat([learned, tested], ignore_index=True))
-    DataFrame(used.items(), columns=["times", "value"]).to_csv(UNCERTAINTY, index=False, float_format="%.4g")
+    rows = [(*name.split("_"), value) for name, value in used.items()]
+    DataFrame(rows, columns=["to", "times", "value"]).to_csv(FITTED, index=False, float_format="%.4g")
     alone.to_csv(TESTED, index=False, float_format="%.4g")
     heading = "p/p_rms|contacts|law alone|held|cut at 2|at 4|at 8 times|± (95 %)|held"
     fill(RESULTS / "law.md", {"extended": table(heading, rows_of(tested, values, alone))})

@@ -39,7 +39,6 @@ RANGES = ((5e-3, 3e-2), (16, 4)), ((3e-2, 0.15), (8, 3)), ((0.15, 0.6), (6, 2)),
 # surfaces.
 COARSE, FINE, CHECKED, CHECKS = 16, 32, 2, 4
 DRAWN, DIMENSIONS = 512, 12  # places of a sequence; the first are taken
-BOOTSTRAPS, FIT_SEED = 200, 36
 FLOOR = 0.02  # of the misfit of a plane, below which one counts no more than another
 PLACES = 5e-3, 0.015, 0.03, 0.07, 0.15, 0.3, 0.6, 1.2, 3.0
 
@@ -137,18 +136,12 @@ def misfits(found, values):
 
 
 def fit():
-    """Fit S, with intervals of 95 % by drawing planes anew, and find its misfits on the planes held out."""
+    """Fit S, and find its misfits on the planes held out."""
     found = planes()
     held = found["plane"] % HELD_OUT == 0
     best = fitted(found[~held], [*coefficients().values()])
-    rng, groups = np.random.default_rng(FIT_SEED), dict(list(found[~held].groupby("plane")))
-    drawn = [
-        fitted(pandas.concat([groups[k] for k in rng.choice([*groups], len(groups))]), best)
-        for _ in range(BOOTSTRAPS)
-    ]
-    low, high = np.quantile(drawn, [0.025, 0.975], axis=0)
-    numbers = DataFrame({"value": best, "low": low, "high": high}).map("{:.4g}".format)
-    stored(FITTED, DataFrame([*coefficients()], columns=["to", "times"]).join(numbers))
+    names = DataFrame([*coefficients()], columns=["to", "times"])
+    stored(FITTED, names.assign(value=[f"{each:.4g}" for each in best]))
     stored(RESULTS / "law/share.csv", misfits(found[held], best))
 
 

@@ -62,7 +62,7 @@ SLOW_ANSWER = (
 
 def main():
     """Solve what is not solved yet, and write the numbers, the figures and the parts of the page."""
-    slow, whole, fine = (compare.study(name, "standard", progress="lines") for name in STUDIES)
+    slow, whole, fine = (compare.study(name, "standard", progress=True) for name in STUDIES)
     trees = [compare.load(report.path.parent) for report in (whole, fine)]
     stored(SLOW, slow.findings[slow.findings["claim"].isin(OF_SLOW)].drop(columns=["meaning"]))
     rows = _fast(whole.findings, fine.findings, trees)

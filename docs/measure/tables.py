@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 from pandas import DataFrame
-from scipy.special import betaincinv
+from scipy.stats import binomtest
 
 from compare.solving.cost import work_of
 from compare.solving.folders import lock
@@ -53,8 +53,7 @@ def limit(values):
 
 def of_count(held, tried):
     """Interval of 95 % of a share, from how many of those tried it held for (Clopper and Pearson)."""
-    ends = betaincinv([held, held + 1], [tried - held + 1, tried - held], [0.025, 0.975])
-    return np.where(np.isnan(ends), [0, 1], ends)
+    return np.array(binomtest(held, tried).proportion_ci())
 
 
 def errors_of(logs):

@@ -19,9 +19,8 @@ from bem3d import BEM
 from compare import FrictionLaw
 from compare.models.law.bands import FASTER, Bands, FullContact
 from compare.models.law.nominal import GAPS, NominalContact
-from compare.models.law.parts import LEAST, MOST, Share, coefficients
+from compare.models.law.parts import LEAST, MOST, Share, coefficients, known_errors
 from compare.models.law.persson import Persson
-from compare.trustmap.friction_law import known_errors
 from scene import (
     CrossedWaves,
     Cylinder,

@@ -3,7 +3,7 @@
 import io
 
 from rich.console import Console
-from stand_in_solver import Stand, loads
+from stand_in_solver import loads
 
 from compare.solving.task import Outcome, Row
 from compare.solving.terminal import PAUSE, Shown
@@ -16,9 +16,9 @@ class Seen(Shown):
 
     now = 0.0
 
-    def __init__(self, lines=False, **console):
+    def __init__(self, **console):
         self.file = io.StringIO()
-        super().__init__(lines, Console(file=self.file, color_system=None, width=70, **console), lambda: self.now)
+        super().__init__(Console(file=self.file, color_system=None, width=70, **console), lambda: self.now)
         self.bar.live.auto_refresh = False
 
     def solve(self, *tasks, seconds):
@@ -65,16 +65,4 @@ def test_a_log_has_one_line_every_ten_seconds_and_nothing_that_moves_a_cursor():
             shown.bar.live.refresh()
     assert [line.split(",")[0] for line in shown.file.getvalue().splitlines()] == [
         *("solving 10/30", "solving 20/30", "solving 30/30", "30 tasks solved", "judging", "judging")
-    ]
-
-
-def test_in_lines_each_solve_and_each_figure_has_one_that_controls_no_terminal():
-    with Seen(lines=True, force_terminal=True) as shown:
-        [*shown.solve(*loads(1.0, solver=Stand(name="\x1b[31m")), seconds=2.0)]
-        with shown.writing(1) as drawn:
-            drawn("friction")
-    assert shown.file.getvalue().splitlines() == [
-        "1/1, solved \\x1b[31m sphere 1 N, at rest, smooth",
-        "1 tasks solved, 1 reused, 2 s",
-        "  figure friction",
     ]

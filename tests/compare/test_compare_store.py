@@ -376,12 +376,3 @@ def test_canonical_text_is_json_that_tells_apart_what_differs(value):
     assert canonical(json.loads(text)) == text
     assert canonical({"a": 1, "b": value}) == text
     assert canonical([value, -0.0]) != canonical([value, 0.0])
-
-
-def test_a_device_is_not_written_over(tmp_path):
-    pipe = tmp_path / "pipe"
-    os.mkfifo(pipe)
-    with pytest.raises(OSError, match="is no regular file"):
-        write(pipe, lambda file: file.write(b"lost"))
-    assert pipe.is_fifo()
-    assert [each.name for each in tmp_path.iterdir()] == ["pipe"]

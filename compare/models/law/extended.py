@@ -1,10 +1,11 @@
 """`ExtendedBEM`: friction of surfaces finer than a grid, by BEM on coarse waves and the law for the finer ones."""
 
+from collections.abc import Mapping
 from dataclasses import replace
-from math import exp, inf, pi, sqrt
+from math import exp, inf, log, log1p, pi, sqrt
 from pathlib import Path
 from time import process_time
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar, cast
 
 import numpy as np
 from pydantic import Field
@@ -18,13 +19,15 @@ from scene.signatures import readable
 from scene.terms import refused_parts
 
 from .bands import Bands
-from .parts import LawParts, rows_of
+from .parts import LawParts, known_errors, rows_of
 from .persson import OF_LAW
 
 FINE, ENOUGH = 8.0, 6.5  # points to the shortest wave that is kept: as planned, and at least
 COARSE = 64  # points of the contact that shows how wide the window is
-# Beyond which what enters the interval changes no more: share of friction added, waves in the contact, x.
-LEAST_ADDED, FEW_WAVES, LEAST_WAVES, LIGHT = 0.02, 20.0, 0.1, 0.1
+# Beyond which what enters the interval changes no more: change of the law, waves in the contact, x.
+LEAST_CHANGE, FEW_WAVES, LEAST_WAVES, LIGHT = 2e-3, 20.0, 0.1, 0.1
+LIGHTEST = 0.01  # x below which the law's error grows no more
+LEARNED = -0.4, 0.8  # logarithms of law over BEM in the contacts that it was learned from
 MOST_POINTS = 4096  # a side of the finest grid that a wanted accuracy leads to
 ROUNDS = 4  # of the cut, which follows from the window, which follows from the contact
 
@@ -38,10 +41,11 @@ class ExtendedBEM:
     accuracy : half of the interval of 95 % of friction that is wanted, relative: points are doubled until it is
         reached, up to MOST_POINTS; None leaves them as they are
 
-    The coefficient is mu_BEM(waves kept) + mu_law(all waves) - mu_law(waves kept), with both laws under the load
-    that BEM found; the waves left to the law never lower it. Where the grid holds every wave it is the coefficient
-    of BEM; where it holds none, BEM solves the smooth body. The depth, or the force at a depth, is that of the
-    contact on the waves kept.
+    The coefficient is mu_BEM(waves kept) plus, octave by octave, what the law adds for the finer waves under the
+    load that BEM found. Each addition is corrected by a factor, near 1 except in light contacts, that was learned
+    from contacts solved with every wave; together they never lower friction. There is no correction on a plane,
+    nor where no wave is kept. Where the grid holds every wave the coefficient is that of BEM; where it holds none,
+    BEM solves the smooth body. The depth, or the force at a depth, is that of the contact on the waves kept.
 
     Result.measures: those of BEM; shortest_kept [m], the shortest wave that is solved, infinite where none is;
     slope_kept, the rms slope of the waves kept over the rms slope of all; friction_kept and friction_added, the
@@ -128,20 +132,18 @@ def _with_law(scene, kept, found) -> dict[str, float]:
     left = Bands.of(cut) if cut else replace(every, power=0 * every.power)
     solved, added, half = found.friction_coefficient, 0.0, 0.0
     if isinstance(scene.motion, Slide):
-        whole = LawParts.of(under(scene, found.normal_force))
-        own = LawParts.of(under(kept, found.normal_force)).friction_coefficient if cut else whole.smooth
-        # In 96 of 777 solved cuts the law falls with more waves; BEM rose in 84 of these, and fell by 5 % at most.
-        added = max(whole.friction_coefficient - own, 0.0)
-    shortest = cut.shortest if cut else inf
-    if total := solved + added:
-        half = uncertainty(
-            added=added / total,
-            waves=found.measures["contact_area"] / shortest**2,
-            x=whole.x,
-            rough=whole.rough / whole.friction_coefficient,
-        )
+        pressed = under(scene, found.normal_force)
+        steps = octaves(pressed, cut.shortest) if cut else [LawParts.of(pressed)]
+        if not cut:
+            added, half = steps[0].rough, known_errors(scene, steps[0].x).half
+        elif steps[-1].friction_coefficient:
+            # In 96 of 777 cuts the law falls with more waves; BEM rose in 84 of these, and fell by 5 % at most.
+            added = max(_added(steps, scene.indenter), 0.0)
+            waves = found.measures["contact_area"] / cut.shortest**2
+            half = exp(fitted("half", numbers_of_cut(steps[0], steps[-1], waves)))
+    total = solved + added
     return {
-        "shortest_kept": shortest,
+        "shortest_kept": cut.shortest if cut else inf,
         "slope_kept": slope(left) / slope(every),
         "friction_kept": solved,
         "friction_added": added,
@@ -151,26 +153,61 @@ def _with_law(scene, kept, found) -> dict[str, float]:
     }
 
 
-UNCERTAINTY = Path(__file__).with_name("extended.csv")
+FITTED = Path(__file__).with_name("extended.csv")
 
 
-def uncertainty(**numbers: float) -> float:
-    """Half an interval of 95 % of the logarithm of friction, fitted to contacts solved with every wave too."""
-    numbers = {"one": 1.0, **scales(**numbers)}
-    return exp(sum(float(row["value"]) * numbers[row["times"]] for row in rows_of(UNCERTAINTY)))
+def fitted(to: str, numbers: Mapping[str, float]) -> float:
+    """Sum of numbers times the coefficients of what they add to."""
+    return sum(float(row["value"]) * numbers[row["times"]] for row in rows_of(FITTED) if row["to"] == to)
 
 
-def scales(added: Any, waves: Any, x: Any, rough: Any) -> dict[str, Any]:
-    """What the logarithm of the interval is linear in: little added, few waves in the contact, a light contact.
+def octaves(scene: Scene, longest: float) -> list[LawParts]:
+    """Law of a scene on its waves down to a length [m], to half of it and so on, and on all of them."""
+    own = LawParts.of(without(scene, longest))
+    found, rough, length = [own], cast(Any, scene.roughness), longest / 2
+    while length > rough.shortest * (1 + 1e-9):
+        found.append(LawParts.of(without(scene, length), own.contact))
+        length /= 2
+    return [*found, LawParts.of(scene, own.contact)]
 
-    added : share of friction that the law adds; waves : area of contact over the square of the shortest wave kept;
-    x : p/p_rms with all waves; rough : share of friction that is not of the smooth body
-    """
+
+def _added(steps: list[LawParts], indenter: Any) -> float:
+    """What the law adds octave by octave, each divided by what it has too much there."""
+    more, plane = np.diff([each.friction_coefficient for each in steps]), isinstance(indenter, Plane)
+    too_much = [0.0 if plane else excess(each, indenter.exponent) for each in steps[1:]]
+    return float(more @ np.exp(np.negative(too_much)))
+
+
+def excess(parts: LawParts, exponent: float) -> float:
+    """Logarithm of what the law adds for its finest waves over what BEM adds, under a body of an exponent."""
+    return float(np.clip(fitted("excess", numbers_of_law(parts, exponent)), *LEARNED))
+
+
+def numbers_of_law(parts: LawParts, exponent: float) -> dict[str, float]:
+    """What the logarithm of law over BEM is linear in: numbers of waves, contact and body, times lightness."""
+    waves, light = parts.waves, log1p(1 / max(parts.x, LIGHTEST))
     return {
-        "rough": rough,
-        "added": np.log(np.abs(added) + LEAST_ADDED),
-        "few": np.log1p(FEW_WAVES / np.maximum(waves, LEAST_WAVES)),
-        "light": np.log1p(1 / np.maximum(x, LIGHT)),
+        "one": light,
+        "harder": light * waves.harder,
+        "faster": light * waves.faster,
+        "shorter": light * waves.shorter,
+        "spread": light * log(parts.radius / parts.contact.radius),
+        "pointed": light / exponent,
+    }
+
+
+def numbers_of_cut(kept: LawParts, whole: LawParts, waves: float) -> dict[str, float]:
+    """What the logarithm of half the interval is linear in.
+
+    kept, whole : law of the waves kept, and of all; waves : area of contact over the square of the shortest kept
+    """
+    own, every = kept.friction_coefficient, whole.friction_coefficient
+    return {
+        "one": 1.0,
+        "rough": whole.rough / every,
+        "change": log(abs(every - own) / max(every, own) + LEAST_CHANGE),
+        "few": log1p(FEW_WAVES / max(waves, LEAST_WAVES)),
+        "light": log1p(1 / max(whole.x, LIGHT)),
     }
 
 

@@ -4,9 +4,9 @@ import csv
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
-from math import inf, nan, pi, prod, sqrt
+from math import inf, log, nan, pi, prod, sqrt
 from pathlib import Path
-from typing import Any, cast
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 
@@ -91,9 +91,7 @@ class LawParts:
     smooth, rough : parts of the friction coefficient
     radius : radius [m] of a disc with the spread of the nominal pressure; for the pressure of the smooth contact
         it is the radius of this contact
-    full : friction of all waves in full contact, an area [Pa]
-    pressure : rms of theirs in full contact [Pa]
-    share : S(x) of these waves
+    waves : in full contact
     height, ridden : rms heights over the depth at rest: of all waves; of those that carry the contact as a whole
     """
 
@@ -101,9 +99,7 @@ class LawParts:
     smooth: float
     rough: float
     radius: float
-    full: float
-    pressure: float
-    share: Share
+    waves: FullContact
     height: float
     ridden: float
 
@@ -113,9 +109,20 @@ class LawParts:
         return self.smooth + self.rough
 
     @property
+    def full(self) -> float:
+        """Friction of all waves in full contact, an area [Pa]."""
+        return float(self.waves.friction.sum())
+
+    @property
+    def share(self) -> Share:
+        """S(x) of the waves."""
+        return Share.of(self.waves)
+
+    @property
     def x(self) -> float:
         """Mean nominal pressure over the rms pressure of full contact."""
-        return self.contact.load / (pi * self.radius**2 * self.pressure) if self.pressure else inf
+        pressure = float(self.waves.pressure[-1])
+        return self.contact.load / (pi * self.radius**2 * pressure) if pressure else inf
 
     @classmethod
     def of(cls, scene: Scene, smooth: SmoothContact | None = None) -> "LawParts":
@@ -148,9 +155,7 @@ class LawParts:
             smooth=smooth.friction_coefficient * (found.lost(solid, speed) / bare_lost if bare_lost else 1.0),
             rough=friction * float(np.sum(share(found.pressure / pressure) * found.area)) / smooth.load,
             radius=radius,
-            full=friction,
-            pressure=pressure,
-            share=share,
+            waves=full,
             height=waves.rms_height / rest,
             ridden=sqrt(max(waves.rms_height**2 - bands.rms_height**2, 0.0)) / rest,
         )
@@ -161,6 +166,40 @@ class LawParts:
         rough, pressed = cast(Any, scene.roughness), cast(float, scene.motion.pressure)
         full = FullContact.of(Bands.of(rough), scene.solid, scene.motion.speed)
         contact, share = SmoothContact.of_plane(pressed, cell_area(rough)), Share.of(full)
-        friction, greatest = float(full.friction.sum()), float(full.pressure[-1])
-        rubbed = friction * float(share(np.array(pressed / greatest))) / pressed
-        return cls(contact, 0.0, rubbed, contact.radius, friction, greatest, share, nan, 0.0)
+        rubbed = float(full.friction.sum() * share(pressed / full.pressure[-1])) / pressed
+        return cls(contact, 0.0, rubbed, contact.radius, full, nan, 0.0)
+
+
+TESTED = Path(__file__).with_name("outside.csv")
+DEPTH = "depth"
+UNTESTED = {"friction": log(3.0), DEPTH: 3.0}  # half an interval where no contact was tested: a guess
+
+
+class Tested(NamedTuple):
+    """Errors of one surface by the bare law, on contacts whose waves are too many for the trust map.
+
+    least, most : p/p_rms of the contacts; contacts : their number, 0 where none was tested
+    half : half an interval of 95 %: of the logarithm of friction, or of the depth over the rms height
+    """
+
+    least: float
+    most: float
+    contacts: float
+    half: float
+
+    @property
+    def words(self) -> str:
+        """What the interval rests on."""
+        if not self.contacts:
+            return "no contact like it was tested, and its interval is a guess"
+        return f"{self.contacts:g} contacts with p/p_rms of {self.least:g} to {self.most:g} were that far off"
+
+
+def known_errors(scene: Scene, x: float, quantity: str = "friction") -> Tested:
+    """Errors of tested contacts of this kind of body; x : p/p_rms, above MOST of which all waves touch."""
+    kind, x = (quantity, "plane" if isinstance(scene.indenter, Plane) else "body"), min(x, MOST)
+    for row in rows_of(TESTED):
+        found = Tested(*(float(row[name]) for name in Tested._fields))
+        if (row["quantity"], row["body"]) == kind and found.least <= x < found.most:
+            return found
+    return Tested(x, x, 0, UNTESTED[quantity])
