@@ -36,7 +36,6 @@ extensions = [
     "sphinx-mathjax-offline",
     "sphinx_copybutton",
     "docstrings",
-    "equations",
     "vocabularies",
 ]
 exclude_patterns = ["*/solved/*", "joss/*"]  # whose citations are of pandoc

@@ -51,7 +51,6 @@ class Planned:
     """JSON answer of `plan`.
 
     solvers : plan of each solver by its name, or in words why there is none
-    trust : worth of cheap answers, the same that `trust` prints
     contacts, seconds : of `crosscheck run`, at most, and its processor time [s]; null where it solves nothing
     times : processor time of this contact by solver [s]
     accuracies : what intervals of this contact take in 3D; empty where its scatter is not known, or none
@@ -60,7 +59,6 @@ class Planned:
     """
 
     solvers: dict[str, Plan | str]
-    trust: Advice
     contacts: int | None
     seconds: float | None
     times: dict[str, float]
@@ -107,8 +105,7 @@ def answer(found: Any) -> Answer:
         case Plans():
             cost = found.cost if isinstance(found.cost, Cost) else None
             return Planned(
-                solvers={name: each for name, each in found.items() if not isinstance(each, Advice)},
-                trust=found.advice,
+                solvers=found,
                 contacts=cost.contacts if cost else None,
                 seconds=cost.seconds if cost else None,
                 times=found.times,

@@ -1,4 +1,4 @@
-"""Plan of a scene: what both solvers would simulate, what that costs, and what the 1D answer would be worth."""
+"""Plan of a scene: what both solvers would simulate, and what that costs."""
 
 from __future__ import annotations
 
@@ -22,8 +22,9 @@ from ..solving.cost import Cost, seconds_per_work, work_of
 from ..solving.curve import on_levels
 from ..solving.words import duration, pascals, seconds, share
 from ..statistics.multilevel import MARGIN, OWN_SHARE
-from ..trustmap.model import NORMAL
-from ..trustmap.verdict import Advice, trust
+from ..trustmap.measured import OffTheMap, Place, as_judged
+from ..trustmap.model import LAW, NORMAL, asked_of
+from ..trustmap.table import model
 from .comparison.around import FINER, Around, extended_of
 from .comparison.series import pilot
 
@@ -74,13 +75,12 @@ class Accuracy:
         return f"{share(self.interval)}: {counted}, {seconds(self.seconds)} in 3D"
 
 
-class Plans(dict[str, Plan | str | Advice]):
-    """Plans by the names of the solvers, or why there is none; by "trust", what cheap answers are worth.
+class Plans(dict[str, Plan | str]):
+    """Plans by the names of the solvers, or why there is none.
 
-    Printed, seven lines, and one for each interval.
+    Printed, six lines, and one for each interval.
 
     case, scene : what is planned
-    advice : what cheap answers are worth
     cost : what all contacts of `crosscheck run` take; the reason where it solves none
     refused : whether that refuses the numbers of a scene of a kind that it compares
     doubts : about the scene, and notes on what was read for it, as sentences
@@ -90,7 +90,6 @@ class Plans(dict[str, Plan | str | Advice]):
         super().__init__({each.name: planned(each, case.scene) for each in (case.mdr, case.bem)})
         self.case, self.scene = case, case.scene
         self.cost, self.refused, self.doubts = _cost(case)
-        self["trust"] = self.advice = trust(case.scene)
 
     @property
     def feasible(self) -> bool:
@@ -106,15 +105,15 @@ class Plans(dict[str, Plan | str | Advice]):
     @property
     def accuracies(self) -> tuple[Accuracy, ...]:
         """What intervals of this contact take in 3D; none of a smooth body and where its scatter is not known."""
-        scatter = max((each.scatter for each in self.advice.corrections.values()), default=nan)
-        if not (isinstance(self.cost, Cost) and hasattr(self.scene.roughness, "seed") and isfinite(scatter)):
+        rough = isinstance(self.cost, Cost) and hasattr(self.scene.roughness, "seed")
+        if not (rough and isfinite(scatter := _scatter(self.scene))):
             return ()
         solver = self.case.bem if "BEM" in self._plans else extended_of(self.case)
         return tuple(Accuracy.of(each, solver, self.scene, scatter) for each in INTERVALS)
 
     @property
     def details(self) -> str:
-        """Every kernel and grid, and what 1D is worth: what `crosscheck plan -v` prints."""
+        """Every kernel and grid: what `crosscheck plan -v` prints."""
         return "\n\n".join([_lines(self._summary()), *map(str, self.values())])
 
     def __str__(self) -> str:
@@ -151,8 +150,6 @@ class Plans(dict[str, Plan | str | Advice]):
             left = dict.fromkeys(name for plan in plans.values() for name in plan.left_out)
             yield "left out", ", ".join(left) or "nothing"
         yield from (("interval", str(each)) for each in self.accuracies)
-        if self.advice.choice:
-            yield "advice", self.advice.choice
         yield "modulus", _stiffness(self.scene)
         # What refuses all contacts refuses this one too, with values that work for all of them.
         refusal = self.cost if isinstance(self.cost, str) else ""
@@ -162,6 +159,16 @@ class Plans(dict[str, Plan | str | Advice]):
                 yield "refused", each
         if refusal and (self.refused or not reasons):
             yield "refused" if self.refused else "alone", refusal
+
+
+def _scatter(scene):
+    """Relative scatter of single surfaces in 3D; NaN where the trust map does not know it."""
+    try:
+        place = Place.of(as_judged(scene))
+    except OffTheMap:
+        return nan
+    models = (model(name) for name in asked_of(scene) if name != LAW)
+    return nan if place.beyond else max(float(each.surface_scatter(place.values[None])[0]) for each in models)
 
 
 def _by_dimension(text, numbers):

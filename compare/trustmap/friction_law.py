@@ -5,7 +5,6 @@ from math import exp, nan, pi
 from time import process_time
 from typing import ClassVar
 
-import numpy as np
 from pydantic.dataclasses import dataclass
 
 from scene import Plane, Result, Scene
@@ -83,8 +82,8 @@ class FrictionLaw:
                     "outside": float(not known),
                     "nominal_radius": parts.radius,
                     "pressure_ratio": parts.x,
-                    "share_of_full_contact": float(parts.share(np.array(parts.x))),
-                    "full_contact_friction": parts.full * pi * parts.radius**2,
+                    "share_of_full_contact": float(parts.share(parts.x)),
+                    "full_contact_friction": float(parts.waves.friction.sum()) * pi * parts.radius**2,
                 }
         return Result(
             scene=scene,

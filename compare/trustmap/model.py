@@ -156,8 +156,12 @@ class Model:
         error = self.fitted.widened(np.sqrt(variance), groups) * unit
         if self.quantity == "depth":
             error = np.where(lost(groups), np.maximum(error, LEAST_LOST), error)
-        scatter, spread = self.scatter.predicted(groups)
-        return Predicted(estimate(self.quantity, groups) + rest * unit, error, np.exp(scatter + spread / 2))
+        return Predicted(estimate(self.quantity, groups) + rest * unit, error, self.surface_scatter(groups))
+
+    def surface_scatter(self, groups: np.ndarray) -> np.ndarray:
+        """Relative scatter (M,) of single surfaces at groups (M, D)."""
+        logarithm, variance = self.scatter.predicted(groups)
+        return np.exp(logarithm + variance / 2)
 
 
 def lost(groups: np.ndarray) -> np.ndarray:

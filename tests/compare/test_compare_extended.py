@@ -46,7 +46,7 @@ def test_friction_is_that_of_the_waves_kept_and_what_the_law_says_of_the_others(
     assert measures["friction_kept"] == bem.friction_coefficient
     under = [replace(each, motion=Slide(speed=0.1, load=bem.normal_force)) for each in (scene, kept)]
     whole, own = map(LawParts.of, under)  # one octave apart at most
-    added = (whole.friction_coefficient - own.friction_coefficient) * exp(-excess(whole, exponent=2.0))
+    added = (whole.friction_coefficient - own.friction_coefficient) * exp(-excess(whole, SOLID))
     assert measures["friction_added"] == pytest.approx(added, rel=1e-12)
     assert found.friction_coefficient == pytest.approx(bem.friction_coefficient + added, rel=1e-12)
     assert (found.normal_force, found.depth) == (bem.normal_force, bem.depth)
@@ -130,9 +130,9 @@ def test_where_no_wave_is_kept_it_is_the_law_with_its_interval():
 
 def test_the_correction_is_that_of_light_contacts_and_stays_where_it_was_learned():
     heavy, light = (LawParts.of(replace(SCENE, motion=Slide(speed=0.1, load=load))) for load in (1e6, 1e-2))
-    assert abs(excess(heavy, 2.0)) < 0.1 * abs(excess(light, 2.0))
+    assert abs(excess(heavy, SOLID)) < 0.1 * abs(excess(light, SOLID))
     steep = replace(light, waves=replace(light.waves, harder=1e3))
-    assert excess(steep, 2.0) == LEARNED[1]
+    assert excess(steep, SOLID) == LEARNED[1]
 
 
 def test_planes_are_solved_on_their_longest_waves():

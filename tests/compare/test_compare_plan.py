@@ -18,6 +18,7 @@ from compare.studies.answers import answer
 from compare.studies.comparison import asked
 from compare.studies.comparison.series import pilot
 from compare.studies.plan import plans
+from compare.trustmap.verdict import trust
 from scene import Doubtful, Scene, Slide, Sphere
 
 PLANE = """
@@ -177,10 +178,10 @@ def test_every_command_doubts_the_same_of_a_table_and_run_and_plan_their_curves_
     assert sentences[0].startswith("frequencies of the contact below those of the table = 3.1")
     assert sentences[1].startswith("width of the interval of the modulus at rest")
     assert sentences == plans(slow).doubts
-    assert sentences[:2] == asked.sweep(slow).doubts == tuple(map(str, plans(slow)["trust"].doubts))
+    assert sentences[:2] == asked.sweep(slow).doubts == tuple(map(str, trust(slow.scene).doubts))
     assert asked.sweep(slow, speed=1e-2).doubts == ()
     # The scene is within the table, its curves are not, and indent.
-    assert plans(within)["trust"].doubts == ()
+    assert trust(within.scene).doubts == ()
     curves = asked.run({"a case": within}).doubts
     assert {each.split(" = ")[0] for each in curves} == {
         "frequencies of the contact above those of the table",

@@ -36,11 +36,3 @@ def force(displacement, exponent=2.0):
     0.6464
     """
     return 1 - (1 - checked_fraction(displacement)) ** ((exponent + 1) / exponent)
-
-
-def no_slip_stiffness(modulus, poisson_ratio, radius):
-    """dF_x/du = 8 G a / (2 - nu) [N/m] of a disc that sticks everywhere: exact at any nu.
-
-    modulus : shear modulus [Pa]; radius [m]. Mindlin (1949).
-    """
-    return 8 * modulus * radius / (2 - poisson_ratio)

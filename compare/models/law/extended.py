@@ -1,11 +1,10 @@
 """`ExtendedBEM`: friction of surfaces finer than a grid, by BEM on coarse waves and the law for the finer ones."""
 
-from collections.abc import Mapping
 from dataclasses import replace
 from math import exp, inf, log, log1p, pi, sqrt
 from pathlib import Path
 from time import process_time
-from typing import Annotated, Any, ClassVar, cast
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 from pydantic import Field
@@ -16,6 +15,7 @@ from scene import Plane, Profile, Result, Scene, SelfAffine, Slide, SolveError, 
 from scene.protocol import numeric_guard, refuse, why_not
 from scene.quantities import CLOSED, Positive, Whole
 from scene.signatures import readable
+from scene.solids.viscoelastic import Linear
 from scene.terms import refused_parts
 
 from .bands import Bands
@@ -27,7 +27,7 @@ COARSE = 64  # points of the contact that shows how wide the window is
 # Beyond which what enters the interval changes no more: change of the law, waves in the contact, x.
 LEAST_CHANGE, FEW_WAVES, LEAST_WAVES, LIGHT = 2e-3, 20.0, 0.1, 0.1
 LIGHTEST = 0.01  # x below which the law's error grows no more
-LEARNED = -0.4, 0.8  # logarithms of law over BEM in the contacts that it was learned from
+LEARNED = -0.4, 0.5  # logarithms of law over BEM in the contacts that it was learned from
 MOST_POINTS = 4096  # a side of the finest grid that a wanted accuracy leads to
 ROUNDS = 4  # of the cut, which follows from the window, which follows from the contact
 
@@ -138,7 +138,7 @@ def _with_law(scene, kept, found) -> dict[str, float]:
             added, half = steps[0].rough, known_errors(scene, steps[0].x).half
         elif steps[-1].friction_coefficient:
             # In 96 of 777 cuts the law falls with more waves; BEM rose in 84 of these, and fell by 5 % at most.
-            added = max(_added(steps, scene.indenter), 0.0)
+            added = max(_added(steps, scene), 0.0)
             waves = found.measures["contact_area"] / cut.shortest**2
             half = exp(fitted("half", numbers_of_cut(steps[0], steps[-1], waves)))
     total = solved + added
@@ -156,43 +156,49 @@ def _with_law(scene, kept, found) -> dict[str, float]:
 FITTED = Path(__file__).with_name("extended.csv")
 
 
-def fitted(to: str, numbers: Mapping[str, float]) -> float:
+def fitted(to: str, numbers: dict[str, float]) -> float:
     """Sum of numbers times the coefficients of what they add to."""
     return sum(float(row["value"]) * numbers[row["times"]] for row in rows_of(FITTED) if row["to"] == to)
 
 
 def octaves(scene: Scene, longest: float) -> list[LawParts]:
     """Law of a scene on its waves down to a length [m], to half of it and so on, and on all of them."""
-    own = LawParts.of(without(scene, longest))
-    found, rough, length = [own], cast(Any, scene.roughness), longest / 2
+    rough: Any = scene.roughness
+    own, length = LawParts.of(without(scene, longest)), longest / 2
+    found = [own]
     while length > rough.shortest * (1 + 1e-9):
         found.append(LawParts.of(without(scene, length), own.contact))
         length /= 2
     return [*found, LawParts.of(scene, own.contact)]
 
 
-def _added(steps: list[LawParts], indenter: Any) -> float:
+def _added(steps: list[LawParts], scene: Scene) -> float:
     """What the law adds octave by octave, each divided by what it has too much there."""
-    more, plane = np.diff([each.friction_coefficient for each in steps]), isinstance(indenter, Plane)
-    too_much = [0.0 if plane else excess(each, indenter.exponent) for each in steps[1:]]
+    more, plane = np.diff([each.friction_coefficient for each in steps]), isinstance(scene.indenter, Plane)
+    too_much = [0.0 if plane else excess(each, scene.solid) for each in steps[1:]]
     return float(more @ np.exp(np.negative(too_much)))
 
 
-def excess(parts: LawParts, exponent: float) -> float:
-    """Logarithm of what the law adds for its finest waves over what BEM adds, under a body of an exponent."""
-    return float(np.clip(fitted("excess", numbers_of_law(parts, exponent)), *LEARNED))
+def excess(parts: LawParts, solid: Linear) -> float:
+    """Logarithm of what the law adds for its finest waves over what BEM adds, on a solid."""
+    return float(np.clip(fitted("excess", numbers_of_law(parts, solid)), *LEARNED))
 
 
-def numbers_of_law(parts: LawParts, exponent: float) -> dict[str, float]:
-    """What the logarithm of law over BEM is linear in: numbers of waves, contact and body, times lightness."""
-    waves, light = parts.waves, log1p(1 / max(parts.x, LIGHTEST))
+def numbers_of_law(parts: LawParts, solid: Linear) -> dict[str, float]:
+    """What the logarithm of law over BEM is linear in: numbers of waves, contact and solid, times lightness."""
+    waves, light, soft = (
+        parts.waves,
+        log1p(1 / max(parts.x, LIGHTEST)),
+        solid.static_modulus / solid.glassy_modulus,
+    )
     return {
         "one": light,
         "harder": light * waves.harder,
         "faster": light * waves.faster,
         "shorter": light * waves.shorter,
         "spread": light * log(parts.radius / parts.contact.radius),
-        "pointed": light / exponent,
+        "unbounded": light * (soft == 0),
+        "glassy": light * soft**0.25,
     }
 
 

@@ -49,7 +49,7 @@ class Share:
             sums[name] = sums[name] + value * prod(known[each] for each in times.split("*"))
         return cls(**sums)
 
-    def __call__(self, x: np.ndarray) -> np.ndarray:
+    def __call__(self, x: Any) -> Any:
         """Share at pressures x >= 0, of any shape."""
         inside = np.clip(x, LEAST, MOST)
         return -np.expm1(
@@ -107,11 +107,6 @@ class LawParts:
     def friction_coefficient(self) -> float:
         """Friction coefficient [1]."""
         return self.smooth + self.rough
-
-    @property
-    def full(self) -> float:
-        """Friction of all waves in full contact, an area [Pa]."""
-        return float(self.waves.friction.sum())
 
     @property
     def share(self) -> Share:

@@ -127,7 +127,7 @@ def _friction(judged: Judged, folder: str) -> Iterator[Plot | None]:
         found, ratios, lines = _along(series, answers, curve)
         several, alone = len(series.curves[curve].values) > 1, found["speed"].nunique() == 1
         shown = several and not (shifted and isinstance(series, RoughSeries))
-        if shown if name == friction.LOAD else not (several and alone):
+        if shown if name == friction.LOAD else not alone:
             across = "speed" if name == friction.SPEED else "load or depth"
             caption = f"Friction against {across}; below, over the reference. {LINES}"
             yield friction.plot(found, ratios, lines, caption, folder, name)
