@@ -88,9 +88,9 @@ def test_a_part_above_its_ceiling_is_named_with_its_largest_files(tmp_path):
         (tmp_path / part).mkdir()
         (tmp_path / part / name).write_text(text, encoding="utf-8")
     (tmp_path / "README.md").write_text("Two words.\n", encoding="utf-8")
-    assert not excess("scene", Size(      0,       8,   1), tmp_path)
-    assert not excess("pages", Size(      0,       6,   2), tmp_path)
-    for ceiling in (Size(      9,       7,   1), Size(9, 8, 0)):
+    assert not excess("scene", Size(0, 8, 1), tmp_path)
+    assert not excess("pages", Size(0, 6, 2), tmp_path)
+    for ceiling in (Size(9, 7, 1), Size(9, 8, 0)):
         assert "scene is above its ceiling: lines 1, ceiling 9; nodes 8" in excess("scene", ceiling, tmp_path)
         assert "scene/large.py 8" in excess("scene", ceiling, tmp_path)
-    assert "page.md 4" in excess("pages", Size(      9,       5,   2), tmp_path)
+    assert "page.md 4" in excess("pages", Size(9, 5, 2), tmp_path)
