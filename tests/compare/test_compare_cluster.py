@@ -3,7 +3,6 @@
 import json
 import os
 import signal
-import socket
 import subprocess
 import sys
 import time
@@ -191,10 +190,8 @@ def test_a_command_that_loses_its_scheduler_says_so_in_a_line_and_goes_on_from_t
 
 def test_where_no_scheduler_answers_it_is_said_within_seconds(tmp_path, monkeypatch):
     monkeypatch.setattr(cluster_module, "ANSWERS", 0.3)
-    with socket.create_server(("127.0.0.1", 0)) as server:
-        address = f"tcp://127.0.0.1:{server.getsockname()[1]}"
-    with pytest.raises(ConnectionError, match=f"^no scheduler of dask answers at {address}$"):
-        sweep(loads(1.0), Store(tmp_path), scheduler=address)
+    with pytest.raises(ConnectionError, match=r"^no scheduler of dask answers at tcp://127\.0\.0\.1:1$"):
+        sweep(loads(1.0), Store(tmp_path), scheduler="tcp://127.0.0.1:1")
 
 
 @pytest.mark.parametrize("address", ["inproc://1/2/3", "", "tcp://name", "name:8786"])

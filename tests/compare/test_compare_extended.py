@@ -94,12 +94,14 @@ def rectangle(rough):
 
 
 @pytest.mark.parametrize("rough", [ROUGH, replace(ROUGH, rolloff=2e-4), table(ROUGH), rectangle(ROUGH)])
-def test_friction_with_few_of_the_waves_has_an_interval_about_that_with_all(rough):
+def test_friction_with_few_of_the_waves_is_near_that_with_all_and_within_its_interval(rough):
     scene = replace(SCENE, roughness=rough)
-    found, every = ExtendedBEM(points=160).solve(scene), BEM(points=640).solve(scene)
-    assert found.measures["friction_kept"] < 0.95 * every.friction_coefficient
-    low, high = found.measures["friction_low"], found.measures["friction_high"]
-    assert low < every.friction_coefficient < high < 1.3 * low
+    found, every = ExtendedBEM(points=160).solve(scene), BEM(points=640).solve(scene).friction_coefficient
+    low, kept, high = (found.measures[f"friction_{name}"] for name in ("low", "kept", "high"))
+    assert kept < 0.95 * every
+    assert low < every < high < 1.3 * low
+    # Four surfaces with a roll-off are off by -1 to 10 %: the interval alone bounds them.
+    assert getattr(rough, "rolloff", None) or found.friction_coefficient == pytest.approx(every, rel=0.04)
 
 
 def test_the_waves_that_are_kept_stand_as_they_were():

@@ -26,8 +26,8 @@ FINE, ENOUGH = 8.0, 6.5  # points to the shortest wave that is kept: as planned,
 COARSE = 64  # points of the contact that shows how wide the window is
 # Beyond which what enters the interval changes no more: change of the law, waves in the contact, x.
 LEAST_CHANGE, FEW_WAVES, LEAST_WAVES, LIGHT = 2e-3, 20.0, 0.1, 0.1
-LIGHTEST = 0.01  # x below which the law's error grows no more
-LEARNED = -0.4, 0.5  # logarithms of law over BEM in the contacts that it was learned from
+LIGHTEST = 0.01  # x below which the excess of the law grows no more
+LEARNED = -0.4, 0.5  # ends of the excess in the contacts that it was learned from
 MOST_POINTS = 4096  # a side of the finest grid that a wanted accuracy leads to
 ROUNDS = 4  # of the cut, which follows from the window, which follows from the contact
 
@@ -157,12 +157,12 @@ FITTED = Path(__file__).with_name("extended.csv")
 
 
 def fitted(to: str, numbers: dict[str, float]) -> float:
-    """Sum of numbers times the coefficients of what they add to."""
+    """Sum of numbers times their coefficients; to : "excess" of the law, or "half" of the interval, logarithms."""
     return sum(float(row["value"]) * numbers[row["times"]] for row in rows_of(FITTED) if row["to"] == to)
 
 
 def octaves(scene: Scene, longest: float) -> list[LawParts]:
-    """Law of a scene on its waves down to a length [m], to half of it and so on, and on all of them."""
+    """Law of a scene with its waves down to a length [m], down to half of it and so on, and with all of them."""
     rough: Any = scene.roughness
     own, length = LawParts.of(without(scene, longest)), longest / 2
     found = [own]
@@ -173,24 +173,22 @@ def octaves(scene: Scene, longest: float) -> list[LawParts]:
 
 
 def _added(steps: list[LawParts], scene: Scene) -> float:
-    """What the law adds octave by octave, each divided by what it has too much there."""
+    """Friction that the law adds, octave by octave, each divided by the excess of the law there."""
     more, plane = np.diff([each.friction_coefficient for each in steps]), isinstance(scene.indenter, Plane)
     too_much = [0.0 if plane else excess(each, scene.solid) for each in steps[1:]]
     return float(more @ np.exp(np.negative(too_much)))
 
 
 def excess(parts: LawParts, solid: Linear) -> float:
-    """Logarithm of what the law adds for its finest waves over what BEM adds, on a solid."""
+    """Logarithm of the friction that the law adds for its finest waves, over the friction that BEM adds."""
     return float(np.clip(fitted("excess", numbers_of_law(parts, solid)), *LEARNED))
 
 
 def numbers_of_law(parts: LawParts, solid: Linear) -> dict[str, float]:
-    """What the logarithm of law over BEM is linear in: numbers of waves, contact and solid, times lightness."""
-    waves, light, soft = (
-        parts.waves,
-        log1p(1 / max(parts.x, LIGHTEST)),
-        solid.static_modulus / solid.glassy_modulus,
-    )
+    """Numbers of waves, contact and solid, times ln(1 + 1/x), that the excess is linear in."""
+    waves = parts.waves
+    soft = solid.static_modulus / solid.glassy_modulus
+    light = log1p(1 / max(parts.x, LIGHTEST))
     return {
         "one": light,
         "harder": light * waves.harder,
@@ -203,7 +201,7 @@ def numbers_of_law(parts: LawParts, solid: Linear) -> dict[str, float]:
 
 
 def numbers_of_cut(kept: LawParts, whole: LawParts, waves: float) -> dict[str, float]:
-    """What the logarithm of half the interval is linear in.
+    """Numbers that the logarithm of half the interval is linear in.
 
     kept, whole : law of the waves kept, and of all; waves : area of contact over the square of the shortest kept
     """
