@@ -20,7 +20,7 @@ class MeasuredRoughness(Term):
         if isinstance(scene.indenter, Plane) and abs(along_x / along_y - 1) > SQUARE:
             reasons.append(
                 f"roughness = Topography repeats after {along_x:g} m along x and {along_y:g} m along y, and the "
-                "cell of a Plane is a square: crop the map"
+                "cell of a Plane is a square: take a part of the map"
             )
         return reasons
 

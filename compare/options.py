@@ -266,13 +266,6 @@ Pixel = Annotated[
 ]
 LengthUnit = Annotated[str | None, Option(help="Unit of the heights, as um. Needed if the file states none.")]
 Channel = Annotated[str | None, Option(help="Name of the map to take, of a file that holds several.")]
-Crop = Annotated[
-    Amounts | None,
-    Option(
-        help='Part to keep: give it four times, x from, x to, y from, y to, as "10 um", from the corner of the'
-        " map."
-    ),
-]
 Missing = Annotated[
     Literal["refuse", "fill"],
     Option(help="fill fills in missing heights, at most 5 % of the pixels; refuse makes them an error."),
@@ -322,9 +315,7 @@ Journal = Annotated[
         "iop",
         "nature",
         "royal-society",
-        "sage",
         "springer",
-        "taylor-francis",
         "wiley",
     ]
     | None,

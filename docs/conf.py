@@ -26,8 +26,6 @@ os.environ |= {"IPYTHONDIR": str(_profile.parent), "OMP_NUM_THREADS": "1"}
 
 project = "mdr-bem-crosscheck"
 release = metadata.version(project)
-version = release
-copyright = "the authors of mdr-bem-crosscheck, MIT license"
 
 extensions = [
     "myst_nb",
@@ -48,7 +46,6 @@ nb_execution_mode = "cache"
 nb_execution_in_temp = True
 nb_execution_timeout = 600
 nb_execution_raise_on_error = True
-nb_execution_show_tb = True
 
 default_role = "py:obj"
 autodoc_default_options = {"members": True, "member-order": "bysource"}
@@ -57,14 +54,10 @@ autodoc_typehints_format = "short"
 autodoc_class_signature = "mixed"
 add_module_names = False
 maximum_signature_line_length = 72  # a longer one has a line for each argument
-toc_object_entries_show_parents = "hide"
 
 copybutton_prompt_text = r">>> |\.\.\. |\$ "
 copybutton_prompt_is_regexp = True
 
 html_theme = "furo"
-html_title = f"{project} {release}"
 html_static_path = ["_static"]
 html_css_files = ["pages.css"]
-html_copy_source = False
-html_show_sphinx = False

@@ -165,14 +165,6 @@ def _tell(found: Any, text: Callable[[Any], str], quiet: bool, verbose: bool, js
         raise typer.Exit(MISTAKE)
 
 
-def _paths(found: Any) -> str:
-    if not found:
-        return "0 files"
-    folder = os.path.commonpath([path.parent.resolve() for path in found])
-    places = (path.resolve().relative_to(folder) for path in found)
-    return "\n".join([*(f"  {place}" for place in places), f"{len(found)} files: {folder}"])
-
-
 def _written_ready(path: Path) -> str:
     text = path.read_text(encoding="utf-8")
     command = next(each.command for each in library.ready().values() if each.text == text)
@@ -198,7 +190,7 @@ _add(commands.plan, details=True)
 _add(commands.scenes)
 _add(commands.new, text=_written_ready)
 _add(commands.schema, text=_schema)
-_add(commands.export, text=_paths)
+_add(commands.export, text=lambda found: "\n".join(map(str, found)))
 _add(commands.draw)
 
 

@@ -70,9 +70,7 @@ COLUMNS = {
     "iop": (3.346, 5.906),
     "nature": (3.504, 7.205),
     "royal-society": (3.307, 6.890),
-    "sage": (3.5, 7.2),
     "springer": (3.307, 6.850),
-    "taylor-francis": (3.5, 7.2),
     "wiley": (3.150, 7.087),
 }
 # Limits of the width of a column that users may ask for [m]; narrower columns than the narrowest journal's cut

@@ -18,7 +18,7 @@ from mdr1d import MDR
 from scene import Kelvin, Program, Refused, Scene, Shear, Slide, SolveError, Solver, Sphere
 
 from .task import Task
-from .words import HOUR, duration
+from .words import HOUR, seconds
 
 CALIBRATION = 0.5  # of processor time [s]
 CALIBRATING = BEM(points=64), Scene(Sphere(0.01), Kelvin(1e6, 1e-3), Slide(speed=0.1, load=1.0))
@@ -117,7 +117,7 @@ class Cost:
 
     def __str__(self) -> str:
         contacts = f"{self.contacts:,} contact{'' if self.contacts == 1 else 's'}"
-        return f"{contacts} at most, about {duration(self.seconds)} of processor time"
+        return f"{contacts} at most, about {seconds(self.seconds)} of processor time"
 
     def refuse(self, workers: int, yes: bool) -> None:
         """Raise Refused for what no memory holds, and without a yes for more than a day or for many contacts."""

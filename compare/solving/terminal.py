@@ -12,7 +12,7 @@ from scene.printable import printable
 
 from .runner import Progress
 from .task import Outcome, Task
-from .words import duration
+from .words import seconds
 
 PAUSE = 10.0  # seconds between lines where there is no terminal to draw a bar on
 
@@ -94,7 +94,7 @@ class Shown(Progress):
             yield self
         finally:
             solved = f"{self.done}{'' if self.done == self.count else f' of {self.count}'} tasks solved"
-            counts = [solved, f"{self.reused} reused", *self._failures(), duration(self.clock() - began)]
+            counts = [solved, f"{self.reused} reused", *self._failures(), seconds(self.clock() - began)]
             self.message(", ".join(counts))
             self._begin("judging")
 
@@ -117,7 +117,7 @@ class Shown(Progress):
     def _counts(self) -> list[str]:
         """Counts in words, and the time left at the pace until now, as far as there is one."""
         left = next((task.time_remaining for task in self.bar.tasks), None)
-        return [f"{self.done}/{self.count}", *self._failures(), *([f"{duration(left)} left"] if left else [])]
+        return [f"{self.done}/{self.count}", *self._failures(), *([f"{seconds(left)} left"] if left else [])]
 
     def __str__(self) -> str:
         """Counts, the time left, and what was begun last."""

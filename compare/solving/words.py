@@ -22,7 +22,7 @@ SUPERSCRIPT = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 UNKNOWN = "–"
 HOUR = 3600.0
 # Units of times with the time from which on the next one is taken, and units of moduli.
-TIMES = (0.995e-4, 1e-6, "µs"), (0.0995, 1e-3, "ms"), (2 * HOUR, 1.0, "s"), (inf, HOUR, "h")
+TIMES = (0.995e-4, 1e-6, "µs"), (0.0995, 1e-3, "ms"), (99.5, 1.0, "s"), (2 * HOUR, 60.0, "min"), (inf, HOUR, "h")
 MODULI = (1e9, "GPa"), (1e6, "MPa"), (1e3, "kPa"), (1.0, "Pa")
 VERDICTS = ("holds", "fails", "undecided", "reported")
 HOLDS, FAILS, UNDECIDED, REPORTED = VERDICTS
@@ -94,16 +94,6 @@ def seconds(value: float) -> str:
         return "an unknown time"
     one, unit = next((one, unit) for most, one, unit in TIMES if value < most)
     return f"{value / one:.{'2g' if value < 99.5 * one else '0f'}} {unit}"
-
-
-def duration(seconds: float | None) -> str:
-    """Seconds as a person says them; a question mark where they are not known."""
-    if seconds is None:
-        return "?"
-    minutes, left = divmod(round(seconds), 60)
-    if not minutes:
-        return f"{left} s"
-    return f"{minutes} min {left:02d} s" if minutes < 60 else f"{minutes // 60} h {minutes % 60:02d} min"
 
 
 def pascals(value: float) -> str:

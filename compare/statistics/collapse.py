@@ -3,19 +3,24 @@
 All shifts are found at once. The misfit that they leave has an interval, and what scatter adds is taken off.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from math import isfinite, nan, sqrt
 from operator import attrgetter
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.polynomial import Chebyshev
-from pandas import DataFrame
 from scipy.linalg import orth
 
 from .commoncurve import Common, Fit, exponent_bias, near
 from .frictioncurves import Curve, FrictionCurves
 from .intervals import Estimated, RmsMisfit
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
 
 # Stiff enough not to follow the scatter, and close enough to Eq. 19 over three decades of xi for 1 % in mu. Where
 # the scatter is less than that, the curve gets more freedom as long as that pays.
@@ -123,6 +128,8 @@ class Collapse:
         shifts : ln p(v) by which the force is shifted (S,)
         lifts : of ln mu (S,), by which friction is shifted too; not shifted if None
         """
+        from pandas import DataFrame
+
         counts = [curve.log_load.size for curve in self.curves]
         load = np.exp(np.concatenate([curve.log_load for curve in self.curves]))
         frame = DataFrame({"speed": np.repeat(self.speeds, counts), "normal_force": load})
@@ -135,6 +142,8 @@ class Collapse:
 
     def shifts(self, lead: Alignment) -> DataFrame:
         """Shifts of each speed with intervals of 95 %: along the force from `lead`, along friction."""
+        from pandas import DataFrame
+
         along, lift = lead.horizontal.columns("log_shift"), self.both.vertical.columns("log_lift")
         return DataFrame({"speed": self.speeds, **along, **lift})
 

@@ -214,6 +214,7 @@ def scaled_to_one(x: np.ndarray) -> tuple[np.ndarray, float]:
 def near(fit: Fit, guess: np.ndarray) -> Common:
     """The fit of least misfit close to a guess of increments (Gauss-Newton), or of a search within the bounds."""
     (lower, upper), found, least = fit.bounds, fit.at(guess), np.inf
+    rounding = np.finfo(float).eps ** 2 * fit.y @ fit.y  # of the residuals: no step changes them by less
     for _ in range(_STEPS):
         at, jacobian, cost = found.increments, found.jacobian, found.cost
         if not cost <= least * (1 + _ROUNDING) or np.any((at <= lower) | (at >= upper)):
@@ -222,7 +223,7 @@ def near(fit: Fit, guess: np.ndarray) -> Common:
         step = np.linalg.lstsq(jacobian, -found.residuals, rcond=LEAST_SINGULAR)[0]
         gain = jacobian @ step
         found = fit.at(at + step)
-        if gain @ gain <= _SETTLED * (cost + LEAST_SINGULAR**2):
+        if gain @ gain <= _SETTLED * cost + rounding:
             return found
     searched = least_squares(
         lambda each: fit.at(each).residuals,

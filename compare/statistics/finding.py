@@ -1,18 +1,21 @@
 """Claim and finding: what is claimed, what was measured of it, and the one rule of the verdict."""
 
+from __future__ import annotations
+
 import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from math import isfinite, nan
-from typing import Any, Self
-
-import pandas
+from typing import TYPE_CHECKING, Any, Self
 
 from scene.quantities import BARE, WHOLE, argument
 from scene.signatures import readable
 
 from ..solving.words import FAILS, HOLDS, REPORTED, UNDECIDED, crossed
 from .intervals import Estimated, RmsMisfit
+
+if TYPE_CHECKING:
+    import pandas
 
 BOTH = "1D/3D"
 
@@ -211,6 +214,8 @@ COLUMNS = tuple(Finding(Claim("", ""), nan).row)
 
 def table(findings: Iterable[Finding]) -> pandas.DataFrame:
     """Findings as one DataFrame, the same columns whatever command they come from."""
+    import pandas
+
     return pandas.DataFrame([each.row for each in findings], columns=list(COLUMNS))
 
 

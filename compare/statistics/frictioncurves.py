@@ -1,15 +1,19 @@
 """Curves of friction against load at several speeds: simulated on the same rough surfaces, or measured."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import nan
-from typing import Any, Self, TypeAlias
+from typing import TYPE_CHECKING, Any, Self, TypeAlias
 
 import numpy as np
-import xarray
 
 from .jackknife import Group, Replicates, groups, resample, strata_of
+
+if TYPE_CHECKING:
+    import xarray
 
 Statistic = Callable[[Any], Mapping[str, float | np.ndarray]]
 FrictionCurves: TypeAlias = Any  # SimulatedCurves, or measured ones that answer the same

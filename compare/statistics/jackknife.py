@@ -4,17 +4,21 @@ The same surfaces stand behind all points: each is left out everywhere at once. 
 the scatter of a number and its skewness; percentiles of resampled surfaces are too narrow where there are few.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import inf, nan, sqrt
-from typing import Any, NamedTuple, Self, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, Self, TypeAlias
 
 import numpy as np
-import xarray
 
 from .finding import Claim, Finding
 from .intervals import Estimated, RmsMisfit, skewness
+
+if TYPE_CHECKING:
+    import xarray
 
 Source: TypeAlias = tuple[str, int]  # solver and stratum of some surfaces, whose scatter is one
 # Statistics are found this often at most for each stratum: above that, surfaces are left out in groups.
@@ -218,7 +222,7 @@ _ONE = "the scatter of a single surface is not known"
 _HALF = "at some point fewer than half of the surfaces have an answer, or the mean is not positive"
 
 
-class DrawSet(dict[str, xarray.Dataset]):
+class DrawSet(dict[str, "xarray.Dataset"]):
     """Datasets on a level by the name of the model or of a series, from which draws can be left out.
 
     Draws of different solvers are independent, and are left out by themselves. Where the Datasets of a solver
@@ -226,7 +230,7 @@ class DrawSet(dict[str, xarray.Dataset]):
     """
 
     @cached_property
-    def _left(self) -> dict[tuple, "DrawSet"]:
+    def _left(self) -> dict[tuple, DrawSet]:
         """Samples without a group: every claim on the same Datasets asks for the same ones."""
         return {}
 
@@ -250,7 +254,7 @@ class DrawSet(dict[str, xarray.Dataset]):
         """Draws that are left out together; where Datasets of a solver differ in number, those of equal shares."""
         return [group for solver, strata in self._strata.items() for group in groups(strata, solver)]
 
-    def without(self, group: Group) -> "DrawSet":
+    def without(self, group: Group) -> DrawSet:
         """The sample without one group of draws of a solver."""
 
         def left(name, dataset):

@@ -1,16 +1,21 @@
 """Means over draws at every point of a Dataset, with intervals of 95 %."""
 
+from __future__ import annotations
+
 from dataclasses import replace
 from math import nan
+from typing import TYPE_CHECKING
 
 import numpy as np
-import xarray
-from pandas import DataFrame, MultiIndex
 
 from ..solving.curve import EMPTY, FAILED, FINE
 from .intervals import Estimated
 from .jackknife import estimated
 from .multilevel import MEANS, pooled
+
+if TYPE_CHECKING:
+    import xarray
+    from pandas import DataFrame
 
 # Means with an interval; and means alone, of numbers that are never negative.
 ESTIMATED = ("normal_force", "depth_reached", "friction_force", "friction_coefficient", "rms_slope", "contact")
@@ -41,6 +46,8 @@ def means(dataset: xarray.Dataset) -> DataFrame:
 
     Each mean has an interval of 95 % that counts scatter and grid.
     """
+    from pandas import MultiIndex
+
     every, prescribed = with_spread(dataset), pressed(dataset)
     dataset = pooled(every)
     fine = dataset.sel(level=FINE)

@@ -24,7 +24,7 @@ import numpy as np
 from ..solving.control_variates import VARIATES, controlled
 from ..solving.cost import MOST_DRAWS, seconds_per_work
 from ..solving.curve import EMPTY, TOGETHER, Curve
-from ..solving.words import duration, share
+from ..solving.words import seconds, share
 from .collapse import PARTED
 from .finding import UNDECIDED, Claim, Finding
 from .intervals import Estimated
@@ -204,7 +204,7 @@ class DrawnSurfaces:
                 totals[words[name]] += lacking
                 work += lacking * self.costs[name][k]
             needed = " and ".join(f"{_some(max(more, 1.0))} more {word}" for word, more in totals.items() if more)
-            time = duration(max(seconds_per_work() * work, 1.0))
+            time = seconds(seconds_per_work() * work)
             remedy = f"some {needed}, {time} of processor time, would decide it"
         return replace(finding, remedy=remedy)
 

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
-from math import ceil, isfinite, isinf, nan, sqrt
+from dataclasses import dataclass
+from math import ceil, isfinite, isinf, nan
 from textwrap import fill
 
 from bem3d import BEM
-from bem3d.plan import likely_grid
 from mdr1d import MDR
 from scene import Refused, Scene, SolveError, notes
 from scene.plan import Plan, size
@@ -20,12 +19,12 @@ from ..models.law.extended import ExtendedBEM
 from ..models.table import KNOWN
 from ..solving.cost import Cost, seconds_per_work, work_of
 from ..solving.curve import on_levels
-from ..solving.words import duration, pascals, seconds, share
+from ..solving.words import pascals, seconds, share
 from ..statistics.multilevel import MARGIN, OWN_SHARE
 from ..trustmap.measured import OffTheMap, Place, as_judged
 from ..trustmap.model import LAW, NORMAL, asked_of
 from ..trustmap.table import model
-from .comparison.around import FINER, Around, extended_of
+from .comparison.around import FINER, Around, extended_of, left_by_grid, with_points
 from .comparison.series import pilot
 
 WIDTH = 100
@@ -34,9 +33,6 @@ INDENT = 11  # of the lines, after their names
 INTERVALS = 0.1, 0.05, 0.02, 0.01
 # Share of the scatter that control variates leave on coarse grids: 16 to 42 % of the variance.
 SCATTER_LEFT = 0.6
-# Error of friction on the plateau times the square of the pixels on the shortest wave: docs/results/accuracy.md.
-GRID_ERROR = 1.7
-MOST_POINTS = 16384  # a side
 
 
 @dataclass(frozen=True)
@@ -57,12 +53,9 @@ class Accuracy:
     @classmethod
     def of(cls, interval: float, solver: BEM | ExtendedBEM, scene: Scene, scatter: float) -> Accuracy:
         """By the scatter of single surfaces."""
-        error, shortest = 0.0, getattr(scene.roughness, "shortest", None)
-        if isinstance(solver, BEM) and shortest and getattr(scene.motion, "speed", 0.0):
-            error = GRID_ERROR * (likely_grid(solver, scene).pixel / shortest) ** 2
-            if (over := error / (OWN_SHARE * interval)) > 1:
-                solver = replace(solver, points=min(2 * ceil(solver.points * sqrt(over) / 2), MOST_POINTS))
-                error = OWN_SHARE * interval
+        error = 0.0
+        if isinstance(solver, BEM) and (error := left_by_grid(solver, scene)):
+            solver, error = with_points(solver, scene, interval), min(error, OWN_SHARE * interval)
             scatter *= SCATTER_LEFT
         works = [work_of(each, scene) for each in on_levels(solver, [scene]).values()]
         *finer, least = pilot(len(works))
@@ -134,7 +127,7 @@ class Plans(dict[str, Plan | str]):
             contacts = f"at most {self.cost.contacts:,}, solved by crosscheck run"
             contacts += ", and more as its interval asks" * (self.case.interval is not None)
             yield "contacts", contacts if plans else f"{contacts} with {' and '.join(FINER)}"
-            times.append(f"about {duration(self.cost.seconds)} on one processor")
+            times.append(f"about {seconds(self.cost.seconds)} on one processor")
         elif self.refused and plans:
             yield "contacts", "none by crosscheck run, which refuses this scene"
         elif plans:

@@ -38,7 +38,7 @@ def schema(kind: str, output: str | Path | None = None) -> dict[str, Any]:
         from .comparison.study_file import StudyFile
 
         what = {"scene": Case, "study": StudyFile}[kind]
-        found = _said_in_full(TypeAdapter(what).json_schema(schema_generator=_Documented))
+        found = _with_bounds(TypeAdapter(what).json_schema(schema_generator=_Documented))
     made = {"$schema": DIALECT, **found, "title": KINDS[kind]}
     if output is not None:
         text = json.dumps(made, indent=1, ensure_ascii=False)
@@ -77,23 +77,14 @@ class _Answers(_Documented):
         return {"type": ["number", "null"]}
 
 
-def _said_in_full(node):
-    """Bounds by their names in JSON schema; without None, which TOML has not, and defaults of whole tables."""
+def _with_bounds(node):
+    """A schema with bounds by their names in JSON schema."""
     if isinstance(node, list):
-        return [_said_in_full(each) for each in node]
+        return [_with_bounds(each) for each in node]
     if not isinstance(node, dict):
         return node
-    found = {}
-    for name, value in node.items():
-        if name in _BOUNDS and not isinstance(value, dict):
-            found[_BOUNDS[name]] = value
-        elif name in _ITEMS and node.get("type") == "array":
-            found[_ITEMS[name]] = value
-        elif name == "anyOf":
-            choices = [_said_in_full(each) for each in value if each != {"type": "null"}]
-            found |= choices[0] if len(choices) == 1 else {"anyOf": choices}
-        elif name == "description" and isinstance(value, str):
-            found[name] = ": ".join(dict.fromkeys(filter(None, (value, found.get(name)))))
-        elif not (name == "default" and (value is None or isinstance(value, dict))):
-            found[name] = _said_in_full(value)
-    return found
+    names = _BOUNDS | (_ITEMS if node.get("type") == "array" else {})
+    return {
+        name if isinstance(value, dict) else names.get(name, name): _with_bounds(value)
+        for name, value in node.items()
+    }

@@ -17,10 +17,9 @@ def refuse_missing(heights: np.ndarray) -> None:
 
     Missing is what is not finite, and what stands for none, see `sentinels`.
     """
-    crop = ", crop = [x from, x to, y from, y to] keeps a part of the map" if heights.ndim > 1 else ""
     holes = ~np.isfinite(heights)
     few = np.count_nonzero(holes) <= MOST_FILLED * heights.size
-    remedy = f'missing = "fill" fills {"them in" if few else f"in at most {100 * MOST_FILLED:g} %"}{crop}'
+    remedy = f'missing = "fill" fills {"them in" if few else f"in at most {100 * MOST_FILLED:g} %"}'
     if count := np.count_nonzero(holes):
         place = tuple(np.argwhere(holes)[0])
         at = "".join(f"[{each}]" for each in place)

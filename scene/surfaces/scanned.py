@@ -1,4 +1,4 @@
-"""What a measured map may be given as, and how it is prepared: read, laid out, cropped, cleaned."""
+"""What a measured map may be given as, and how it is prepared: read, laid out, cleaned."""
 
 from collections.abc import Mapping
 from dataclasses import fields
@@ -12,21 +12,19 @@ from pydantic.dataclasses import dataclass
 from ..files.heightfile import LINE, MAP, read_heights
 from ..files.stated import FORM, TableFormat, alternatives, restated, split_format
 from ..printable import brief
-from ..quantities import METRE, Length, argument
-from .heightmap import LEAST, HeightLine, HeightMap, MapHeights, Pixel, sides
+from ..quantities import Length
+from .heightmap import LEAST, HeightMap, MapHeights, Pixel, sides
 from .missing import cleaned_heights
 
 QUOTIENT = 1e-12  # rounding of a quotient of lengths
 FILL = ("refuse", "fill")
 # What is asked of heights before they are a map or a line; no fields: what comes of it is in the heights.
-_READING = ("file", "unit", "channel", "missing")
-ASKED = {HeightMap: (*_READING, "crop"), HeightLine: _READING}
+ASKED = "file", "unit", "channel", "missing"
 
 
 _TEXT = {"type": "string"}
 OF_A_FILE: dict[str, Any] = FORM | {"file": _TEXT, "unit": _TEXT, "channel": _TEXT, "missing": {"enum": [*FILL]}}
-_CROP = {"type": "array", "items": {"type": ["number", "string"]}, "minItems": 4, "maxItems": 4}
-MAPPED = alternatives("heights", "pixel", **OF_A_FILE, crop=_CROP)
+MAPPED = alternatives("heights", "pixel", **OF_A_FILE)
 
 
 @dataclass(frozen=True, config=MAPPED, kw_only=True)
@@ -45,10 +43,8 @@ class Scanned:
     `skip`, `rows`, `separator`, `decimal`, `encoding`, `columns`, `units` and `where` state what differs of a
     text, see `stated.TableFormat`.
 
-    Before heights are a map, in this order:
+    Before heights are a map:
 
-    crop : x from, x to, y from, y to [m], from the corner of the first pixel: pixels whose middles lie between are
-        kept
     missing : "fill", heights that are missing, NaN, masked or a number far off that stands for none, are filled in
         harmonically, a twentieth of the pixels at most; "refuse", the default, they are an error
 
@@ -100,7 +96,7 @@ class Scanned:
 
 
 def prepared(cls: Any, stated: dict[str, Any], kind: type[HeightMap], spacing: str) -> dict[str, Any]:
-    """Fields of a part whose heights are a map or a line: read, cropped and cleaned as stated.
+    """Fields of a part whose heights are a map or a line: read and cleaned as stated.
 
     kind : HeightMap or HeightLine; spacing : field with the pixel or the spacing
 
@@ -109,8 +105,8 @@ def prepared(cls: Any, stated: dict[str, Any], kind: type[HeightMap], spacing: s
     if not ("file" in stated or "heights" in stated):
         return stated
     written, stated = split_format(stated)
-    asked = {name: stated[name] for name in ASKED[kind] if stated.get(name) is not None}
-    left = {name: each for name, each in stated.items() if name not in ASKED[kind]}
+    asked = {name: stated[name] for name in ASKED if stated.get(name) is not None}
+    left = {name: each for name, each in stated.items() if name not in ASKED}
     path, heights = asked.pop("file", None), left.get("heights")
     if path is not None and heights is not None:
         raise ValueError(f"file = {brief(repr(path))} and heights are both stated: give one of them")
@@ -143,38 +139,13 @@ def prepared(cls: Any, stated: dict[str, Any], kind: type[HeightMap], spacing: s
 
 
 def _cleaned(heights, pixel, asked):
-    """Heights cropped and filled in as stated, and what was done, in lines."""
-    crop, missing, notes = asked.get("crop"), asked.get("missing"), ()
-    if missing not in (None, *FILL):
+    """Heights filled in as stated, and what was done, in lines."""
+    if (missing := asked.get("missing")) not in (None, *FILL):
         raise ValueError(f"missing = {brief(repr(missing))}: 'refuse' or 'fill'")
-    if crop is None and missing != "fill":
-        return heights, notes
+    if missing != "fill":
+        return heights, ()
     try:
         pixel = sides(pixel)
     except ValueError:
-        return heights, notes
-    if crop is not None:
-        heights, notes = _cropped(heights, pixel, crop)
-    if missing == "fill":
-        heights, more = cleaned_heights(heights, pixel)
-        notes = (*notes, *more)
-    return heights, notes
-
-
-def _cropped(heights, pixel, crop):
-    """The part of a map whose middles of pixels lie in a rectangle, and what was left out, in words."""
-    ends, kept, counts = argument("crop", crop, METRE.row), [], heights.shape[::-1]
-    size = [count * side for count, side in zip(counts, pixel, strict=True)]
-    if len(ends) == 4 and np.isfinite(ends).all():
-        for side, count, whole, (low, high) in zip(pixel, counts, size, (ends[:2], ends[2:]), strict=True):
-            middles, close = (np.arange(count) + 0.5) * side, QUOTIENT * whole
-            inside = np.flatnonzero((low - close <= middles) & (middles <= high + close))
-            if low >= -close and high <= whole + close and len(inside) >= LEAST:
-                kept.append(slice(inside[0], inside[-1] + 1))
-    if len(kept) < 2:
-        raise ValueError(
-            f"crop = {brief(repr(crop))}: x from, x to, y from, y to as lengths, 0 to {size[0]:g} m along x and 0 "
-            f"to {size[1]:g} m along y, with at least {LEAST} pixels on either side"
-        )
-    left = heights[kept[1], kept[0]]
-    return left, (f"cropped to {left.shape[1]} x {left.shape[0]} of {counts[0]} x {counts[1]} pixels",)
+        return heights, ()
+    return cleaned_heights(heights, pixel)

@@ -196,7 +196,8 @@ class Topography(Scanned):
         """Reason why the waves do not fit in memory; None where they do."""
         if max(self.tops) <= MOST_WAVES:
             return None
-        return f"{max(self.tops)} waves a side, {MOST_WAVES} fit in memory: crop the map, or state shortest_kept"
+        remedy = "take a part of the map, or state shortest_kept"
+        return f"{max(self.tops)} waves a side, {MOST_WAVES} fit in memory: {remedy}"
 
     @property
     def waves(self) -> Waves:

@@ -91,7 +91,7 @@ def test_rectangles_are_roughness_but_no_cell():
     map_ = Topography(heights=heights, pixel=1e-4, repeat="periodic", shortest_kept=4e-4)
     answer = BEM(points=64).solve(replace(SLIDING, roughness=map_, motion=Indent(load=0.1)))
     assert answer.normal_force == pytest.approx(0.1)
-    with pytest.raises(Refused, match="cell of a Plane is a square: crop"):
+    with pytest.raises(Refused, match="cell of a Plane is a square: take"):
         BEM(points=64).solve(replace(PRESSED, roughness=map_))
 
 

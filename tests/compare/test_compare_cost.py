@@ -60,7 +60,7 @@ def test_of_a_whole_study_it_is_an_upper_bound_as_curves_share_contacts(asked):
 )
 def test_what_takes_long_is_begun_on_a_yes_alone(tmp_path, contacts, days, message):
     asked = Costly(contacts, days * DAY / seconds_per_work())
-    with pytest.raises(Refused, match=f"{contacts:,} contacts .* h .* of processor time.*{message}.*--yes"):
+    with pytest.raises(Refused, match=f"{contacts:,} contacts .* h of processor time.*{message}.*--yes"):
         run(asked, tmp_path / "out", workers=2)
     assert not (tmp_path / "out").exists()
     with pytest.raises(AssertionError, match="tasks were built"):

@@ -16,6 +16,7 @@ from compare.library.lookup import case_of
 from compare.solving.cost import seconds_per_work, work_of
 from compare.studies.answers import answer
 from compare.studies.comparison import asked
+from compare.studies.comparison.around import left_by_grid
 from compare.studies.comparison.series import pilot
 from compare.studies.plan import plans
 from compare.trustmap.verdict import trust
@@ -74,6 +75,15 @@ def test_a_plan_says_what_intervals_take_before_anything_is_solved():
     off_the_map = replace(found.case, roughness=replace(found.scene.roughness, shortest=1e-7))
     for none in ("hertz", "there-and-back", "rough-plane", off_the_map):
         assert plans(none).accuracies == ()
+
+
+@pytest.mark.parametrize("asking", [asked.run, asked.sweep])
+def test_where_no_points_are_stated_the_grid_leaves_half_of_an_interval_to_the_scatter(asking):
+    case = case_of("paper-sphere")
+    stated = replace(case, bem=BEM(points=140))
+    chosen, own = (asking(each, interval="0.1%").series[0].models["BEM"].solver for each in (case, stated))
+    assert 0.97 < left_by_grid(chosen, case.scene) / 0.0005 <= 1
+    assert own == stated.bem
 
 
 @pytest.mark.slow

@@ -26,13 +26,13 @@ class Size(NamedTuple):
 # A change that makes a part smaller lowers its numbers to what it reached. None is ever raised.
 # fmt: off
 CEILINGS = {
-    "scene":   Size(  8_470,  60_980,  50),
+    "scene":   Size(  8_442,  60_497,  50),
     "mdr1d":   Size(  3_674,  26_125,  25),
     "bem3d":   Size(  6_345,  50_404,  45),
-    "compare": Size( 21_384, 160_269, 149),
-    "tests":   Size( 25_763, 226_982, 164),
-    "docs":    Size(  4_127,  36_103,  29),
-    "pages":   Size(  5_228,  48_241,  40),
+    "compare": Size( 21_384, 160_204, 149),
+    "tests":   Size( 25_755, 226_844, 164),
+    "docs":    Size(  4_118,  36_099,  29),
+    "pages":   Size(  5_225,  48_159,  40),
 }
 # fmt: on
 

@@ -50,7 +50,7 @@ def test_more_waves_of_a_map_than_fit_are_refused_before_they_are_built(solver, 
     monkeypatch.setattr(scene.surfaces.topography, "_waves", lambda *_: pytest.fail("waves were built"))
     rough = replace(SCENE, roughness=Topography(heights=np.eye(4, MOST_WAVES + 2), pixel=1e-6))
     plane = replace(rough, indenter=Plane(), motion=Slide(speed=0.1, pressure=1e4))
-    refused = f"roughness = Topography has {MOST_WAVES + 1} waves a side, {MOST_WAVES} fit in memory: crop the map"
+    refused = f"roughness = Topography has {MOST_WAVES + 1} waves a side, {MOST_WAVES} fit in memory: take a part"
     for asked in (rough, plane) if solver.name == "BEM" else (rough,):
         for ask in (solver.solve, solver.plan):
             with pytest.raises(Refused, match=refused):

@@ -491,25 +491,6 @@ def test_a_hole_in_a_surface_that_is_harmonic_on_any_lattice_is_filled_in_exactl
     assert filled(np.where(hole, NAN, surface), pixel) == pytest.approx(surface)
 
 
-def test_a_crop_is_the_map_of_what_it_keeps():
-    heights, crop = noise((20, 30)), ["10 um", "40 um", "9 um", "39 um"]
-    whole, kept = ({"heights": each, "pixel": PIXEL} for each in (heights, heights[3:13, 5:20].copy()))
-    for level in DEGREES:
-        found = Topography(**whole, crop=crop, level=level)
-        assert found == Topography(**kept, level=level)
-        np.testing.assert_array_equal(found.relief, Topography(**kept, level=level).relief)
-    assert found.notes == ("cropped to 15 x 10 of 30 x 20 pixels",)
-    assert Measured(**whole, crop=np.array([10e-6, 40e-6, 9e-6, 39e-6])) == Measured(**kept)
-    assert replace(Topography(**whole), crop=crop).heights.shape == (10, 15)
-    # what is cut away may be missing
-    heights[0, 0] = NAN
-    assert Topography(**whole, crop=crop) == Topography(**kept)
-    for wrong in ([5, 20, 3, 13], ["40 um", "10 um", "9 um", "39 um"], "10 um", [NAN] * 4):
-        refused(
-            "crop = .*(x from, x to, y from, y to as lengths, 0 to 6e-05 m|a list|a length)", **whole, crop=wrong
-        )
-
-
 @given(seed=st.integers(0, 10**6), rows=st.integers(4, 30), columns=st.integers(4, 30))
 @examples(20)
 def test_a_level_takes_off_all_forms_of_its_degree_and_nothing_else(seed, rows, columns):
@@ -540,10 +521,10 @@ def test_a_scene_file_states_what_is_done_to_a_map(tmp_path):
     heights = noise((30, 30))
     heights[2, 2] = NAN
     written(tmp_path, text(heights), "map.csv")
-    more = 'file = "map.csv"\nmissing = "fill"\ncrop = ["0 um", "20 um", "0 um", "10 um"]\n'
+    more = 'file = "map.csv"\nmissing = "fill"\n'
     found = read(written(tmp_path, FILE + more, "scene.toml"), Scene).roughness
-    assert found.heights.shape == (10, 20)
-    assert len(found.notes) == 2
+    assert found.heights.shape == (30, 30)
+    assert len(found.notes) == 1
     refused(
         r"missing = 'full': 'refuse' or 'fill'",
         read,

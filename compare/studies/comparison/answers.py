@@ -1,12 +1,11 @@
 """Answers of a scene on its curves, by model, samples of them, and theories that accompany the models."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any
-
-import xarray
-from pandas import DataFrame, concat
+from typing import TYPE_CHECKING, Any
 
 from scene import SolveError, Solver
 from scene.protocol import numeric_guard, why_not
@@ -19,6 +18,10 @@ from ...statistics.intervals import Estimated
 from ...statistics.jackknife import DrawSet, compared
 from ...statistics.multilevel import pooled
 from ...trustmap.friction_law import FrictionLaw
+
+if TYPE_CHECKING:
+    import xarray
+    from pandas import DataFrame
 
 THEORY, LAW = THEORIES = Persson(), FrictionLaw()
 
@@ -158,6 +161,8 @@ class Answers:
 
     def _stacked(self, table):
         """Tables of every model on every curve, one below the other, with both names in the first columns."""
+        from pandas import DataFrame, concat
+
         places = [(name, model) for name, each in self.curves.items() for model in each["model"].values.tolist()]
         frames = [DataFrame({"curve": place[0], "model": place[1]} | dict(table(*place))) for place in places]
         return concat([each for each in frames if len(each)] or frames[:1], ignore_index=True)

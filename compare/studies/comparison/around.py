@@ -4,14 +4,19 @@ The scene as it stands, force against depth, friction against speed and against 
 against friction in its interface, has one curve: over time, or over the displacement.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
-from typing import ClassVar
+from math import ceil, sqrt
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
-import xarray
 
+from bem3d import BEM
+from bem3d.plan import likely_grid
 from scene import Indent, InvalidInput, Program, Refused, Scene, Shear, SolveError, Solver
 from scene.protocol import numeric_guard, why_not
 from scene.scales import elastic_contact
@@ -25,12 +30,15 @@ from ...solving.task import SceneTask
 from ...statistics.finding import Finding
 from ...statistics.jackknife import mean
 from ...statistics.means import touches
-from ...statistics.multilevel import MEANS, WORDS
+from ...statistics.multilevel import MEANS, OWN_SHARE, WORDS
 from ...trustmap.verdict import Advice, trust
 from .answers import Answers, with_theory
 from .claims import CLAIMS
 from .measures import Here, Place, Row, Where, at
 from .series import Counts, Judged, Series, Wanted, ratio_of
+
+if TYPE_CHECKING:
+    import xarray
 
 OWN, SPEED, LOAD = "own", "friction-speed", "friction-load"
 ROUGH_DEPTH, SMOOTH_DEPTH, SMOOTH_SPEED = "force-depth-rough", "force-depth-smooth", "smooth-speed"
@@ -187,6 +195,34 @@ def finer_than_its_grid(case: Case) -> bool:
             return not coarse and not law and bool(why_not(case.bem, case.scene))
     except SolveError:  # its numbers are too far apart for any model
         return False
+
+
+# Error of friction on the plateau times the square of the pixels on the shortest wave: docs/results/accuracy.md.
+GRID_ERROR = 1.7
+MOST_POINTS = 16384  # a side
+
+
+def left_by_grid(solver: BEM, scene: Scene) -> float:
+    """Relative error of friction that a grid leaves on the plateau; 0 at rest, or without a shortest wave."""
+    shortest = getattr(scene.roughness, "shortest", None)
+    if not (shortest and getattr(scene.motion, "speed", 0.0)):
+        return 0.0
+    return GRID_ERROR * (likely_grid(solver, scene).pixel / shortest) ** 2
+
+
+def with_points(solver: BEM, scene: Scene, interval: float) -> BEM:
+    """The solver on no fewer points, of which the error of the grid leaves room for an interval of 95 %."""
+    over = left_by_grid(solver, scene) / (OWN_SHARE * interval)
+    more = min(2 * ceil(solver.points * sqrt(over) / 2), MOST_POINTS)
+    return replace(solver, points=max(solver.points, more))
+
+
+def for_interval(case: Case, interval: float | None) -> Case:
+    """The case on as many points in 3D as an interval asks for; its own if stated, or too few for its waves."""
+    with suppress(SolveError), numeric_guard():
+        if interval and case.bem == Case.bem and not why_not(case.bem, case.scene):
+            return replace(case, bem=with_points(case.bem, case.scene, interval))
+    return case
 
 
 @dataclass(frozen=True)

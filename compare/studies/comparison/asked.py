@@ -16,7 +16,7 @@ from ...models.table import ModelLike, listed
 from ...solving.curve import refuse
 from ...solving.folders import folders, slug
 from ...solving.suggest import known
-from .around import Around
+from .around import Around, for_interval
 from .comparison import Comparison
 from .study_file import SIZES, STUDIES, study_of
 from .sweep import SweepSeries
@@ -49,6 +49,7 @@ def run(
         for case in cases.values():
             case.refuse()
         folders(cases, "case")
+        cases = {name: for_interval(case, wanted or case.interval) for name, case in cases.items()}
         series = tuple(Around(name, case, chosen, reference, wanted) for name, case in cases.items())
         names = sorted({each.name for one in series for each in one.models})
         inputs = {

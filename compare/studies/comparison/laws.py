@@ -1,11 +1,12 @@
 """Laws of the paper at every point of a series."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from math import nan
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import xarray
 
 from mdr1d import equations
 from scene import Indent, Slide
@@ -13,6 +14,9 @@ from scene.indenter import Axisymmetric
 
 from ...solving.curve import Curve
 from ...statistics.jackknife import draws_of, off_the_ratio
+
+if TYPE_CHECKING:
+    import xarray
 
 # Relative spread of exponents up to which they are one.
 SAME = 0.02

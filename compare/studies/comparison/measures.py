@@ -9,10 +9,9 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from math import nan
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import xarray
 
 from scene import Program, Scene
 from scene.scales import MUCH_LESS_HEIGHT, elastic_contact
@@ -25,6 +24,9 @@ from ...statistics.jackknife import draws_of, friction, mean, off_the_ratio
 from .answers import CONTACT, Answers
 from .claims import ENDS, geometric, power
 from .laws import Laws
+
+if TYPE_CHECKING:
+    import xarray
 
 ROUGH, SMOOTH = "rough", "smooth"  # curves of a rough series, by the body
 # Slow: the loss tangent of the shortest wave, v times the longest time over it, and xi, below which friction is

@@ -1,14 +1,15 @@
 """Series: one scene with the curves that are solved of it, what is judged on them, and its surfaces."""
 
+from __future__ import annotations
+
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import ceil, inf, nan
-from typing import Any, ClassVar, TypeAlias
+from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 
 import numpy as np
-import xarray
 
 from scene import Scene, Solver
 
@@ -26,6 +27,9 @@ from .answers import Answers
 from .claims import claim
 from .laws import Laws, laws
 from .measures import Here, Row
+
+if TYPE_CHECKING:
+    import xarray
 
 Counts = Mapping[str, tuple[int, ...]]  # numbers of surfaces on each level, by model
 Wanted: TypeAlias = Iterator[tuple[str, str, tuple[float, ...]]]  # curve, name and speeds of means

@@ -29,7 +29,7 @@ from ...solving.vocabulary import attributes
 from ...statistics import intervals
 from ...statistics.means import ENDS
 from ...statistics.multilevel import MEANS, WORDS, wanted
-from .around import MU, OWN_RATIOS, models_of, over
+from .around import MU, OWN_RATIOS, for_interval, models_of, over
 from .measures import Here, Place, Row, Where
 from .series import Counts, Judged, Series, Wanted
 
@@ -152,8 +152,8 @@ class SweepSeries(Series):
         pressed: dict[str, Any] = {name: values[0]}
         motion = Slide(speed=max(speeds), **pressed) if max(speeds) else Indent(**pressed)
         half = share_of("interval", interval)
-        compared = models_of(case, models, reference)
-        asked = cls(replace(case, motion=motion), speeds, values, drawn, compared, half)
+        case = for_interval(replace(case, motion=motion), half)
+        asked = cls(case, speeds, values, drawn, models_of(case, models, reference), half)
         refuse(asked.curves.values())
         return asked
 
