@@ -204,8 +204,7 @@ class DrawnSurfaces:
                 totals[words[name]] += lacking
                 work += lacking * self.costs[name][k]
             needed = " and ".join(f"{_some(max(more, 1.0))} more {word}" for word, more in totals.items() if more)
-            time = seconds(seconds_per_work() * work)
-            remedy = f"some {needed}, {time} of processor time, would decide it"
+            remedy = f"some {needed}, {seconds(seconds_per_work() * work)} of processor time, would decide it"
         return replace(finding, remedy=remedy)
 
     def _least_cost(self, parts, times):

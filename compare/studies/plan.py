@@ -24,7 +24,7 @@ from ..statistics.multilevel import MARGIN, OWN_SHARE
 from ..trustmap.measured import OffTheMap, Place, as_judged
 from ..trustmap.model import LAW, NORMAL, asked_of
 from ..trustmap.table import model
-from .comparison.around import FINER, Around, extended_of, left_by_grid, with_points
+from .comparison.around import FINER, Around, extended_of, for_interval, left_by_grid, with_points
 from .comparison.series import pilot
 
 WIDTH = 100
@@ -209,7 +209,7 @@ def _cost(case: Case) -> tuple[Cost | str, bool, tuple[str, ...]]:
     Also the doubts about them.
     """
     try:
-        asked = Around("scene", case)
+        asked = Around("scene", for_interval(case, case.interval))
         return sum((each.cost for each in asked.curves.values()), Cost()), False, tuple(asked.doubts)
     except NotCompared as reason:
         return str(reason), False, doubted(case)

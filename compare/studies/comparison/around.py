@@ -213,8 +213,7 @@ def left_by_grid(solver: BEM, scene: Scene) -> float:
 def with_points(solver: BEM, scene: Scene, interval: float) -> BEM:
     """The solver on no fewer points, of which the error of the grid leaves room for an interval of 95 %."""
     over = left_by_grid(solver, scene) / (OWN_SHARE * interval)
-    more = min(2 * ceil(solver.points * sqrt(over) / 2), MOST_POINTS)
-    return replace(solver, points=max(solver.points, more))
+    return replace(solver, points=max(solver.points, min(2 * ceil(solver.points * sqrt(over) / 2), MOST_POINTS)))
 
 
 def for_interval(case: Case, interval: float | None) -> Case:
