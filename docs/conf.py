@@ -49,9 +49,6 @@ nb_execution_raise_on_error = True
 
 default_role = "py:obj"
 autodoc_default_options = {"members": True, "member-order": "bysource"}
-autodoc_typehints = "signature"
-autodoc_typehints_format = "short"
-autodoc_class_signature = "mixed"
 add_module_names = False
 maximum_signature_line_length = 72  # a longer one has a line for each argument
 

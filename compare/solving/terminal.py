@@ -93,7 +93,7 @@ class Shown(Progress):
         try:
             yield self
         finally:
-            solved = f"{self.done}{'' if self.done == self.count else f' of {self.count}'} tasks solved"
+            solved = f"{self.done} of {self.count} tasks solved"
             counts = [solved, f"{self.reused} reused", *self._failures(), seconds(self.clock() - began)]
             self.message(", ".join(counts))
             self._begin("judging")

@@ -53,8 +53,7 @@ class Accuracy:
     @classmethod
     def of(cls, interval: float, solver: BEM | ExtendedBEM, scene: Scene, scatter: float) -> Accuracy:
         """By the scatter of single surfaces."""
-        error = 0.0
-        if isinstance(solver, BEM) and (error := left_by_grid(solver, scene)):
+        if error := left_by_grid(solver, scene):
             solver, error = with_points(solver, scene, interval), min(error, OWN_SHARE * interval)
             scatter *= SCATTER_LEFT
         works = [work_of(each, scene) for each in on_levels(solver, [scene]).values()]
@@ -73,13 +72,14 @@ class Plans(dict[str, Plan | str]):
 
     Printed, six lines, and one for each interval.
 
-    case, scene : what is planned
+    stated, case, scene : what is planned, as it is stated and on the points that its interval takes
     cost : what all contacts of `crosscheck run` take; the reason where it solves none
     refused : whether that refuses the numbers of a scene of a kind that it compares
     doubts : about the scene, and notes on what was read for it, as sentences
     """
 
     def __init__(self, case: Case) -> None:
+        self.stated, case = case, for_interval(case, case.interval)
         super().__init__({each.name: planned(each, case.scene) for each in (case.mdr, case.bem)})
         self.case, self.scene = case, case.scene
         self.cost, self.refused, self.doubts = _cost(case)
@@ -101,7 +101,7 @@ class Plans(dict[str, Plan | str]):
         rough = isinstance(self.cost, Cost) and hasattr(self.scene.roughness, "seed")
         if not (rough and isfinite(scatter := _scatter(self.scene))):
             return ()
-        solver = self.case.bem if "BEM" in self._plans else extended_of(self.case)
+        solver = self.stated.bem if "BEM" in self._plans else extended_of(self.stated)
         return tuple(Accuracy.of(each, solver, self.scene, scatter) for each in INTERVALS)
 
     @property
@@ -209,7 +209,7 @@ def _cost(case: Case) -> tuple[Cost | str, bool, tuple[str, ...]]:
     Also the doubts about them.
     """
     try:
-        asked = Around("scene", for_interval(case, case.interval))
+        asked = Around("scene", case)
         return sum((each.cost for each in asked.curves.values()), Cost()), False, tuple(asked.doubts)
     except NotCompared as reason:
         return str(reason), False, doubted(case)

@@ -211,8 +211,8 @@ def errors(name):
     for contact in candidates(name):
         if contact.number > rows["number"].max():
             return pandas.concat(found, ignore_index=True)
-        own = rows[rows["number"] == contact.number].groupby("factor")
-        own = own.mean(numeric_only=True)[own.size() == own.size().max()]
+        own = rows[rows["number"] == contact.number].groupby(["factor", "set", "stratum"])
+        own = own.mean(numeric_only=True)[own.size() == own.size().max()].reset_index(["set", "stratum"])
         if len(own) > 1:
             found.append(cuts_of(contact, own.loc[1], own.loc[2:]))
 

@@ -54,7 +54,7 @@ def test_each_phase_has_its_bar_which_says_what_it_waits_for_and_grows_with_the_
     ]
     estimate = shown.file.getvalue()
     assert "1/2, stand sph" in estimate  # cut off where there is no room
-    assert "2 tasks solved, 1 reused, 3.3 min" in estimate
+    assert "2 of 2 tasks solved, 1 reused, 3.3 min" in estimate
 
 
 def test_a_log_has_one_line_every_ten_seconds_and_nothing_that_moves_a_cursor():
@@ -64,5 +64,5 @@ def test_a_log_has_one_line_every_ten_seconds_and_nothing_that_moves_a_cursor():
             shown.now += PAUSE
             shown.bar.live.refresh()
     assert [line.split(",")[0] for line in shown.file.getvalue().splitlines()] == [
-        *("solving 10/30", "solving 20/30", "solving 30/30", "30 tasks solved", "judging", "judging")
+        *("solving 10/30", "solving 20/30", "solving 30/30", "30 of 30 tasks solved", "judging", "judging")
     ]

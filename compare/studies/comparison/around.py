@@ -11,7 +11,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from math import ceil, sqrt
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -202,15 +202,15 @@ GRID_ERROR = 1.7
 MOST_POINTS = 16384  # a side
 
 
-def left_by_grid(solver: BEM, scene: Scene) -> float:
-    """Relative error of friction that a grid leaves on the plateau; 0 at rest, or without a shortest wave."""
+def left_by_grid(solver: BEM | ExtendedBEM, scene: Scene) -> float:
+    """Relative error of friction that BEM leaves on the plateau; 0 at rest, or without a shortest wave."""
     shortest = getattr(scene.roughness, "shortest", None)
-    if not (shortest and getattr(scene.motion, "speed", 0.0)):
+    if not (isinstance(solver, BEM) and shortest and getattr(scene.motion, "speed", 0.0)):
         return 0.0
     return GRID_ERROR * (likely_grid(solver, scene).pixel / shortest) ** 2
 
 
-def with_points(solver: BEM, scene: Scene, interval: float) -> BEM:
+def with_points(solver: Any, scene: Scene, interval: float) -> Any:
     """The solver on no fewer points, of which the error of the grid leaves room for an interval of 95 %."""
     over = left_by_grid(solver, scene) / (OWN_SHARE * interval)
     return replace(solver, points=max(solver.points, min(2 * ceil(solver.points * sqrt(over) / 2), MOST_POINTS)))
