@@ -32,7 +32,7 @@ CEILINGS = {
     "compare": Size( 21_384, 160_202, 149),
     "tests":   Size( 25_755, 226_834, 164),
     "docs":    Size(  4_115,  36_098,  29),
-    "pages":   Size(  5_218,  48_076,  40),
+    "pages":   Size(  5_218,  48_075,  40),
 }
 # fmt: on
 
