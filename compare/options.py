@@ -26,7 +26,6 @@ if TYPE_CHECKING:
 
     File = str | Path
     Amount = str | float
-    Amounts = Sequence[str | float]
     Sides = str | float | Sequence[str | float]
     SeveralModels = Sequence[ModelLike]
     StyleLike = str | PathLike | Mapping[str, Any]
@@ -34,7 +33,7 @@ if TYPE_CHECKING:
 else:
     File = Path
     SceneLike = ModelLike = Measurements = Surface = Amount = StyleLike = str
-    Values = Amounts = Sides = SeveralModels = SeveralScenes = Named = list[str]
+    Values = Sides = SeveralModels = SeveralScenes = Named = list[str]
 
 
 def scenes() -> list[str]:

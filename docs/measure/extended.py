@@ -32,7 +32,7 @@ from scene import Prony, Refused, Scene, SelfAffine, Slide, SolveError, Spectrum
 from scene.scales import elastic_contact
 
 SETS = "learned", "more", "further", "again", "anew", "earlier", "tested"
-FIRST, APART, EACH = 62_100, 100, 24  # seed of the first set, between sets; contacts of each stratum in a set
+FIRST, APART, EACH = 62_100, 100, 24  # seed of the first set, and from set to set; contacts of a stratum in one
 # Surfaces of a contact of a stratum, solved in pairs with and without the finest waves: the error is that of their
 # means. One elsewhere: with many waves in contact, one surface is like another.
 SURFACES = {"lightest": 4, "light": 2}

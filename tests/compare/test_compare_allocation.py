@@ -64,7 +64,7 @@ def sampled(rng, variation, asked, correlation=None):
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("variation", "interval", "correlation", "least"),
-    [(0.15, 0.02, None, 0.94), (1.0, 0.1, None, 0.93), (0.15, 0.02, 0.85, 0.93)],
+    [(0.15, 0.02, None, 0.94), (0.5, 0.05, None, 0.94), (1.0, 0.1, None, 0.93), (0.15, 0.02, 0.85, 0.93)],
 )
 def test_intervals_hold_as_often_although_sampling_stops_by_them(variation, interval, correlation, least):
     """Five hundred synthetic studies of two points that share their surfaces.
